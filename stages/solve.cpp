@@ -7,6 +7,7 @@
 #include "core/base/interrupt.hpp"
 #include "identification/inverse/uncertainty.hpp"
 #include "results/store/step_journal.hpp"
+#include "scene/model/material_review.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/dry_run.hpp"
 #include "scene/run/mirrored_solution.hpp"
@@ -108,6 +109,9 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
   const std::string file = job.has("material") ? job.input("material") : "",
                     mesh = job.has("mesh") ? job.input("mesh") : "";
   const Law material = job.has("material") ? Law(material_of_body(file)) : job.config.material;
+  for (const std::string& line : review_lines(job.config, material, job.where)) {
+    job.voice().warn(line);
+  }
   const ParameterKnowledge known = take_uncertain(job.config, file, job.where);
   if (job.has("mirror") && !job.dry_run &&
       job.config.sensitivity.empty()) {  // a number of one is another of its image

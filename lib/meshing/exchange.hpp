@@ -2,15 +2,12 @@
 // as 4.1) and Abaqus or CalculiX (.inp). .msh: 8-node hexahedra, or 4-node tetrahedra that become
 // tet15; .inp: those, hexahedra of 20 and 27 nodes, which become hex27, and 10-node tetrahedra,
 // with their curved edges (ReferenceCell::names). What has a name there has it here:
-//   bodies      .msh: physical volumes; .inp: element sets of *SOLID SECTION, without any those of *ELEMENT;
-//               of an .inp that Gmsh wrote: its physical volumes
-//   facet sets  .msh: physical surfaces; .inp: *SURFACE of elements, element sets of plane elements (which Gmsh writes), and
-//               facets of the surface whose nodes all are in a node set; their nodes are a node set of the same name
+//   bodies      .msh: physical volumes; .inp: element sets of *SOLID SECTION, without any those of *ELEMENT
+//   facet sets  .msh: physical surfaces; .inp: *SURFACE of elements; their nodes are a node set of the same name
 //   node sets   .msh: physical points and curves too; .inp: *NSET, *SURFACE of nodes, and the new nodes between theirs
 //               (mesh/raise.hpp)
-// A name that several instances of an .inp have is instance.name. Cells whose nodes are numbered the
-// other way round are turned. Nodes and cells keep the file's order; nodes that no cell has are left
-// out. Reading fails as Failure(input) with the line of an .inp.
+// Nodes and cells keep the file's order; nodes that no cell has are left out. Reading fails as
+// Failure(input) with the line of an .inp.
 #pragma once
 
 #include <string>
@@ -18,7 +15,6 @@
 
 #include "core/base/fields.hpp"
 #include "mechanics/mesh/mesh.hpp"
-#include "meshing/inp_inclusion.hpp"
 
 namespace langer {
 
@@ -33,12 +29,8 @@ Mesh read_inp(const std::string& path, std::vector<std::string>& notes);
 // `edge` mm: face_<n> are its faces, body_<n> its bodies where there are several.
 Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells,
                 std::vector<std::string>& notes);
-// without an opener *INCLUDE is refused
 Mesh parse_inp(const std::string& text, const std::string& shown_name,
-               std::vector<std::string>& notes, const InpOpener& opener = {});
-
-// Files that *INCLUDE puts into an .inp, in all depths, each once. Throws Failure(input).
-std::vector<std::string> included_inp_files(const std::string& path);
+               std::vector<std::string>& notes);
 
 // Bodies and sets as above; a node set that is no more than the nodes of the facet set of its name
 // is not written twice. hex8 only (names.abaqus.written). Failure(config) for a name that the

@@ -18,6 +18,7 @@
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "meshing/exchange.hpp"
+#include "meshing/inp.hpp"
 #include "meshing/inp_model.hpp"
 
 namespace langer {
@@ -537,6 +538,11 @@ Mesh parse_inp(const std::string& text, const std::string& shown_name,
                std::vector<std::string>& notes, const InpOpener& opener) {
   InpScanner scanner(text, shown_name, opener);
   return mesh_of(scanner, shown_name, notes);
+}
+
+Mesh parse_inp(const std::string& text, const std::string& shown_name,
+               std::vector<std::string>& notes) {
+  return parse_inp(text, shown_name, notes, {});
 }
 
 Mesh read_inp(const std::string& path, std::vector<std::string>& notes) {

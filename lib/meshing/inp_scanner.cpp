@@ -59,7 +59,8 @@ InpOpener inp_opener(const std::string& main_file) {
     const fs::path path = (fs::path(from).parent_path() / named).lexically_normal();
     inclusion.path = path.string();
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(path, error);
+    // A path that is not there would otherwise stay relative.
+    const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
     if (fs::path(named).is_absolute() || error || !is_inside(root, real)) {
       inclusion.trouble = "is not in the folder of the main file";
       return inclusion;

@@ -167,9 +167,8 @@ void judge(const Say& say, const History& history) {
   }
   if (history.count("volume_change") && largest(history, "volume_change") > 0.02)
     say(Level::warning,
-        fmt::format(
-            "a cell changes its volume by {:.3g} %, though the material is nearly incompressible",
-            100 * largest(history, "volume_change")));
+        fmt::format("an element changes its volume by {:.3g} %: soft tissue keeps its volume",
+                    100 * largest(history, "volume_change")));
   for (const auto& [name, values] : history)
     if (name.find("error") != std::string::npos && !values.empty())
       say(Level::note, fmt::format("{}: {:.3g} at the end, at most {:.3g}", name, values.back(),

@@ -5,6 +5,7 @@
 
 #include "fuzz.hpp"
 #include "meshing/exchange.hpp"
+#include "meshing/inp.hpp"
 #include "sound_mesh.hpp"
 
 namespace {

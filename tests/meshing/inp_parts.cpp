@@ -17,6 +17,7 @@
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "meshing/exchange.hpp"
+#include "meshing/inp.hpp"
 #include "support/block.hpp"
 
 using namespace langer;

@@ -44,10 +44,8 @@ void keep_lowest(std::vector<Low>& lowest, const Low& one) {
   lowest.push_back(one), std::push_heap(lowest.begin(), lowest.end(), lower);
 }
 
-// its volume should not change visibly at stresses of the order of its shear modulus
-bool nearly_incompressible(const Material& material) {
-  return bulk_modulus(material) > 1000 * std::abs(shear_modulus(material));
-}
+// A change of volume that is worth a warning, whatever the bulk modulus is.
+constexpr double most_volume_change = 0.02;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -101,9 +99,10 @@ StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) 
     const int n_gauss = body.geometry(e).n_gauss();
     for (int g = 0; g < n_gauss; ++g)
       cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
-    if (nearly_incompressible(body.material(e)) && std::abs(cell_volume - 1) > report.volume_change)
-      report.volume_change = std::abs(cell_volume - 1),
+    if (std::abs(cell_volume - 1) > report.volume_change) {
+      report.volume_change = std::abs(cell_volume - 1);
       report.volume_place = gauss_position(body.mesh(), e, 0);
+    }
     for (int g = 0; g < n_gauss; ++g) {
       const double w = body.geometry(e).w[g],
                    s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
@@ -219,11 +218,14 @@ std::vector<std::string> StabilityWatch::warnings() const {
         "unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
         "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
         material_.text(), percent(last_.lost), last_.stiffness, place_text(last_.place)));
-  if (volume_change_ > 0.02)
+  if (volume_change_ > most_volume_change) {
     lines.push_back(fmt::format(
-        "a cell near {} changes its volume by {}, though the material is nearly incompressible: its stresses "
-        "come near the bulk modulus; look at c2 and at the strains there",
+        "an element near {} changes its volume by {}: the stresses there come near the bulk "
+        "modulus, and soft tissue keeps its volume; a larger bulk modulus (a smaller d) keeps it. "
+        "If the material is nearly incompressible already, look at stiff fibres (c2) and at the "
+        "strains there",
         place_text(volume_place_), percent(volume_change_)));
+  }
   if (!falling_.of.empty())
     lines.push_back(fmt::format(
         "the driving force falls at {}: held by displacements these states may be stable, under the same "

@@ -8,6 +8,7 @@
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/statistics/within_bounds.hpp"
 #include "mechanics/material/at_rest.hpp"
+#include "mechanics/material/review.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -227,6 +228,9 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   if (at_rest(material) == AtRest::without_stiffness)
     lines.push_back(fmt::format("the law has {}: no body of it can be solved; it needs {}",
                                 at_rest_in_words(material), stiffness_at_rest_cure(material)));
+  for (const MaterialFinding& finding : review(material)) {
+    lines.push_back(fmt::format("{}: {}", finding.key, finding.words));
+  }
   for (const MatrixTerm& term : material.matrix)
     if (const double mu = shear_modulus(term); mu < 0)
       lines.push_back(fmt::format(

@@ -8,10 +8,12 @@
 #include "identification/sensitivity/sensitivity_config.hpp"
 #include "identification/setup/fit_config_io.hpp"
 #include "mechanics/material/at_rest.hpp"
+#include "pipeline/plan/run_files.hpp"
 #include "pipeline/plan/stage_config.hpp"
 #include "pipeline/sweep/gather_config.hpp"
 #include "pipeline/sweep/tune_config.hpp"
 #include "report/report_config.hpp"
+#include "scene/model/material_review.hpp"
 #include "scene/model/mesh_config.hpp"
 #include "scene/model/solve_config.hpp"
 #include "scene/model/solve_config_io.hpp"
@@ -25,13 +27,26 @@ template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
   Effective e{to_yaml(loaded.config, relative_to(folder)), {}, loaded.notices};
-  for (const NamedFile& file : files_named_by(loaded.config))
-    e.files.push_back({file.path, file.key, loaded.where(file.key)});
+  for (const NamedFile& file : files_named_by(loaded.config)) {
+    const Place place = loaded.where(file.key);
+    e.files.push_back({file.path, file.key, place});
+    for (const std::string& included : files_included_by(file.path)) {
+      e.files.push_back({included, file.key, place});
+    }
+  }
   if constexpr (std::is_same_v<Config, FitConfig>)
     e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); },
     e.names = names_in(loaded.config.law);
   if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>)
     e.names = names_in(loaded.config);
+  if constexpr (std::is_same_v<Config, SolveConfig>) {
+    const std::vector<std::string> doubts = review_lines(loaded.config, {}, loaded.where);
+    e.notices.insert(e.notices.end(), doubts.begin(), doubts.end());
+  }
+  if constexpr (std::is_same_v<Config, Material>) {
+    const std::vector<std::string> doubts = review_lines(loaded.config, "", loaded.where);
+    e.notices.insert(e.notices.end(), doubts.begin(), doubts.end());
+  }
   if constexpr (std::is_same_v<Config, SolveConfig> || std::is_same_v<Config, PostConfig>)
     e.names = names_in(loaded.config, loaded.where);
   return e;

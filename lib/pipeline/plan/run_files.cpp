@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/hdf5/replace.hpp"
+#include "meshing/inp.hpp"
 #include "pipeline/plan/overrides.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -87,6 +88,14 @@ std::set<std::string> files_of(const Tree& tree) {
   return files;
 }
 
+std::vector<std::string> files_included_by(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::error_code ec;
+  if (extension != ".inp" || !fs::is_regular_file(path, ec)) return {};
+  return included_inp_files(path);
+}
+
 std::string content_of(const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".h5") return read_origin(path).content_id;
@@ -107,6 +116,11 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
     need_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);
     never_replace(file.path);
+    const std::vector<std::string> included = files_included_by(file.path);
+    for (std::size_t i = 0; i < included.size(); ++i) {
+      identity.inputs[fmt::format("{}.include[{}]", file.key, i)] = content_of(included[i]);
+      never_replace(included[i]);
+    }
   }
   return identity;
 }

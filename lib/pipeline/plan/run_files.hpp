@@ -33,6 +33,10 @@ void need_output(const std::string& output, const std::string& config, const Inp
 std::set<std::string> files_of(
     const Tree& tree);  // that its parts were read from: the config itself and what it includes
 
+// Files that a file reads itself: those that *INCLUDE names in an .inp, in all depths. Throws
+// Failure(input) where one of them cannot be read.
+std::vector<std::string> files_included_by(const std::string& path);
+
 // Content id of an input: from the root attributes of an HDF5 file, from the values (not the
 // comments) of a YAML file, from the bytes of any other file.
 std::string content_of(const std::string& path);

@@ -1,0 +1,89 @@
+# Input files of Abaqus/CAE and Gmsh as people have them: included files, instances, reversed elements, physical groups. What is
+# included is an input of the run.
+include(${ROOT}/tests/support/run.cmake)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/project)
+set(folder ${WORK}/project)
+set(nodes "*NODE, NSET=all\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n")
+set(element "*ELEMENT, TYPE=C3D8H, ELSET=skin\n1,1,2,3,4,5,6,7,8\n")
+file(WRITE ${folder}/nodes.inc "${nodes}")
+file(WRITE ${folder}/materials.inc "*MATERIAL, NAME=m\n*HYPERELASTIC, NEO HOOKE\n0.05, 0.01\n")
+file(WRITE ${folder}/main.inp
+  "*HEADING\n nodes and materials elsewhere\n*INCLUDE, INPUT=\"nodes.inc\"\n*INCLUDE, INPUT=materials.inc\n${element}*SOLID SECTION, ELSET=skin, MATERIAL=m\n")
+file(WRITE ${folder}/mesh.yaml "geometry: {file: {path: main.inp}}\n")
+
+run(0 ${BIN}/langer-mesh mesh.yaml -o mesh.h5)
+expect_said("left out, as they are no mesh: *HYPERELASTIC, *MATERIAL")
+run(0 ${BIN}/langer check mesh.yaml)
+run(0 ${BIN}/langer show mesh.h5)
+expect_said("skin")
+
+# the identity of the mesh follows what is included
+run(0 ${BIN}/langer-mesh mesh.yaml -o same.h5 --json --quiet)
+file(READ ${folder}/nodes.inc before)
+string(REPLACE "7,1,1,1" "7,1,1,1.5" after "${before}")
+macro(inputs_of file variable)
+  execute_process(COMMAND h5dump -a /inputs ${folder}/${file} OUTPUT_VARIABLE ${variable} RESULT_VARIABLE missing)
+endmacro()
+inputs_of(mesh.h5 first)
+file(WRITE ${folder}/nodes.inc "${after}")
+run(0 ${BIN}/langer-mesh mesh.yaml -o mesh.h5 --quiet)
+inputs_of(mesh.h5 second)
+if(NOT missing)
+  string(REGEX MATCH "geometry.file.path.include\\[0\\]=[0-9a-f]+" one "${first}")
+  string(REGEX MATCH "geometry.file.path.include\\[0\\]=[0-9a-f]+" two "${second}")
+  if(one STREQUAL "" OR one STREQUAL two)
+    message(FATAL_ERROR "the included file is no input of the mesh: ${first} ${second}")
+  endif()
+endif()
+
+# nothing that the run makes replaces an included file
+file(RENAME ${folder}/nodes.inc ${folder}/out.inp)
+file(READ ${folder}/main.inp main)
+string(REPLACE "nodes.inc" "out.inp" main "${main}")
+file(WRITE ${folder}/main.inp "${main}")
+run(3 ${BIN}/langer-mesh mesh.yaml --set "export=[inp]" -o out.h5)
+expect_said("out.inp: is read by this run and would be replaced")
+run(3 ${BIN}/langer-mesh mesh.yaml -o mesh.h5 --log out.inp)
+expect_said("out.inp: ")
+
+# files that cannot be included, by name and line
+foreach(bad "../outside.inc;is not in the folder of the main file" "/etc/hostname;is not in the folder of the main file"
+    "nothing.inc;there is no such file" "fifo;is no plain file" "main.inp;which includes this file")
+  list(POP_FRONT bad named)
+  execute_process(COMMAND mkfifo ${folder}/fifo ERROR_QUIET)
+  file(WRITE ${WORK}/outside.inc "${nodes}")
+  file(WRITE ${folder}/main.inp "*HEADING\n*INCLUDE, INPUT=${named}\n${element}")
+  run(3 ${BIN}/langer-mesh mesh.yaml -o bad.h5)
+  expect_said("main.inp:2:1: *INCLUDE of \"${named}\"")
+  expect_said("${bad}")
+endforeach()
+
+# elements of which all are numbered the other way round
+file(WRITE ${folder}/main.inp "${nodes}*ELEMENT, TYPE=C3D8\n1,5,6,7,8,1,2,3,4\n")
+run(0 ${BIN}/langer-mesh mesh.yaml -o turned.h5)
+expect_said("the nodes of 1 of 1 elements are numbered the other way round (first: element 1, ")
+file(WRITE ${folder}/main.inp "${nodes}*ELEMENT, TYPE=C3D8\n1,1,2,4,3,5,6,7,8\n")
+run(3 ${BIN}/langer-mesh mesh.yaml -o folded.h5)
+expect_said("main.inp:11:1: element 1 is folded")
+
+# Cook's membrane as Gmsh writes it: quadratic, bent between two clamps, with physical groups alone
+# and with node sets. The force on the right is the traction times its area.
+foreach(groups elements nodes)
+  file(WRITE ${folder}/scene.yaml "mesh: {geometry: {file: {path: cook_${groups}.inp}}, cells: hex27}
+supports:
+  - {on: left, hold: [x, y, z]}
+  - {on: front, hold: [z]}
+  - {on: back, hold: [z]}
+loads:
+  - {on: right, traction: {y: 1e-3}}
+path: {steps: 1}
+material:
+  matrix: {neo_hooke: {a1: 0.5}}
+  volume: {quadratic: {d: 0.01}}
+")
+  file(COPY ${ROOT}/tests/support/inp/cook_${groups}.inp DESTINATION ${folder})
+  run(0 ${BIN}/langer-solve scene.yaml -o cook_${groups}.h5 --quiet)
+endforeach()
+run(0 ${BIN}/langer show cook_elements.h5)
+expect_said("cook")
