@@ -61,8 +61,9 @@ TEST_CASE("branches count where the law at once after a step has a negative Pois
   Material material = neo_hooke(0.05, QuadraticVolume{2});
   CHECK(words(material) == "");
   material.viscous = std::vector<ViscousBranch>{{1, 20}};
-  CHECK(contains(words(material), "at once after a step: the bulk modulus of 1 MPa is less than "
-                                  "2/3 of the shear modulus of 2.1 MPa"));
+  CHECK(contains(words(material),
+                 "at once after a step: the bulk modulus of 1 MPa is less than "
+                 "2/3 of the shear modulus of 2.1 MPa"));
   (*material.viscous)[0].of = BranchOf::fibres;
   CHECK(words(material) == "");
 }

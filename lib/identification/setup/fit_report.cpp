@@ -8,8 +8,8 @@
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/statistics/within_bounds.hpp"
 #include "mechanics/material/at_rest.hpp"
-#include "mechanics/material/review.hpp"
 #include "mechanics/material/ellipticity.hpp"
+#include "mechanics/material/review.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer {
