@@ -99,8 +99,7 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"isochoric_fibre_stretch_max", "-", "greatest sqrt(I4_bar) over all Gauss points; 1 at rest"},
     {"driving_force", "N mm",
      "work of imposed displacements per unit of t; positive where they do work on the body"},
-    {"volume_change", "-",
-     "greatest |V / V0 - 1| of a cell; never negative"},
+    {"volume_change", "-", "greatest |V / V0 - 1| of a cell; never negative"},
     {"d_*", "-",
      "of `sensitivity`: derivative of the quantity, in the unit of its name, with respect to the number behind _d_, per its unit"},
 });
