@@ -77,8 +77,10 @@ std::string kind_of(const std::string& path) {
 }
 
 std::string check_file(const std::string& path, std::string kind) {
-  need_file(path);
-  if (kind.empty()) kind = kind_of(path);
+  if (kind.empty()) {
+    need_file(path);
+    kind = kind_of(path);
+  }
   if (!has_schema(kind)) schema_text(kind);  // says which there are
   if (kind == "pipeline") {
     const PlanReport report = check_pipeline(path);

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "core/base/error.hpp"
+#include "core/base/input_file.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/raise.hpp"
@@ -525,11 +525,7 @@ Mesh mesh_of(InpScanner& scanner, const std::string& shown_name, std::vector<std
 }
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw Failure(Exit::input, Error{{path}, "", "cannot be read", "", ""});
-  return text.str();
+  return read_file(path, "a mesh of Abaqus or CalculiX");
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "core/base/input_file.hpp"
 
 namespace langer {
 
@@ -137,14 +138,7 @@ Triangles parse_surface(const std::string& bytes, const std::string& shown_name)
 }
 
 Triangles read_surface(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  if (!file)
-    throw Failure(
-        Exit::input,
-        Error{{path}, "", "cannot be read", "an STL file with triangles, normals outwards", ""});
-  return parse_surface(bytes.str(), path);
+  return parse_surface(read_file(path, "an STL file with triangles, normals outwards"), path);
 }
 
 }  // namespace langer

@@ -96,7 +96,7 @@ TEST_CASE("a missing file is refused by name") {
     CHECK(false);
   } catch (const Failure& f) {
     CHECK(f.code() == Exit::input);
-    starts(f.what(), "no/such/curve.csv: cannot be read");
+    starts(f.what(), "no/such/curve.csv: there is no such file");
   }
 }
 

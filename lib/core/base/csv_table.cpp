@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/input_file.hpp"
 
 namespace langer {
 
@@ -371,13 +371,10 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
 }
 
 std::string text_of_table(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw Failure(
-        Exit::input,
-        {{path, 0, 0}, "", "cannot be read, or is empty", "a CSV file with a measured test", ""});
-  return text.str();
+  const char* expected = "a CSV file with a measured test";
+  std::string text = read_file(path, expected);
+  if (text.empty()) throw Failure(Exit::input, Error{{path}, "", "is empty", expected, ""});
+  return text;
 }
 
 CsvTable read_table(const std::string& path, const CsvReading& reading) {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/input_file.hpp"
 #include "core/hdf5/h5_handle.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
@@ -277,6 +278,7 @@ File File::open(const std::string& path) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) refuse("no such file", "");
   if (std::filesystem::is_directory(path, none)) refuse("is a folder, not a file", "");
+  if (!std::filesystem::is_regular_file(path, none)) refuse(unreadable_reason(path), "");
   const Seal seal = seal_of(path);
   if (seal == Seal::broken)
     refuse("damaged: its content does not fit its checksum", "make it again");

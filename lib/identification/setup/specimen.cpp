@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/input_file.hpp"
 #include "core/config/reader.hpp"
 #include "identification/setup/fit_config.hpp"
 
@@ -87,10 +87,10 @@ void add_what_the_file_says(Tree& item) {
   const Tree* file = item.find("file");
   if (!file || file->kind != Tree::Kind::scalar || file->scalar.empty()) return;
   const fs::path path = (fs::path(file->base) / file->scalar).lexically_normal();
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) return;
-  Tree said = csv_header(text.str(), path.string());
+  if (!unreadable_reason(path.string()).empty()) return;
+  const std::string text = read_file(path.string());
+  if (text.empty()) return;
+  Tree said = csv_header(text, path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
   const Tree other = beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place)
                          ? load_yaml(beside.string())

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "core/base/input_file.hpp"
 #include "core/hdf5/replace.hpp"
 #include "meshing/inp.hpp"
 #include "pipeline/plan/overrides.hpp"
@@ -27,18 +26,10 @@ namespace {
 }  // namespace
 
 void need_file(const std::string& path, const Place& named_at, const std::string& key) {
-  std::error_code ec;
-  std::string trouble;
-  if (!fs::exists(path, ec))
-    trouble = "there is no such file";
-  else if (fs::is_directory(path, ec))
-    trouble = "this is a folder, not a file";
-  else if (access(path.c_str(), R_OK) != 0)
-    trouble = "cannot be read";
-  else
-    return;
-  if (key.empty()) refuse(path, trouble);
-  throw Failure(Exit::input, Error{named_at, key, path + ": " + trouble, "", ""});
+  const std::string reason = unreadable_reason(path);
+  if (reason.empty()) return;
+  if (key.empty()) refuse(path, reason);
+  throw Failure(Exit::input, Error{named_at, key, path + ": " + reason, "", ""});
 }
 
 void need_one_source(const StageSpec& stage, const Tree& config,
@@ -100,10 +91,7 @@ std::string content_of(const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".h5") return read_origin(path).content_id;
   if (extension == ".yaml" || extension == ".yml") return fnv1a(to_text(load_yaml(path)));
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return fnv1a(bytes.str());
+  return fnv1a(read_file(path));
 }
 
 Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
