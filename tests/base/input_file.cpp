@@ -81,7 +81,7 @@ TEST_CASE("a pipe, a device, a socket, a folder and nothing are refused at once 
   CHECK(refusal(folder) == expected(folder, "this is a folder, not a file"));
   CHECK(refusal(folder / "lost") == expected(folder / "lost", "there is no such file"));
   CHECK(refusal(folder / "pipe/x") == expected(folder / "pipe/x", "there is no such file"));
-  CHECK(refusal("") == ": there is no such file; expected a table");
+  CHECK(refusal("") == "there is no such file; expected a table");
   CHECK(refusal(folder / "loop").find("cannot be read (") != std::string::npos);
   close(socket_number);
   fs::remove_all(folder);

@@ -9,8 +9,8 @@
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "meshing/block.hpp"
-#include "meshing/gmsh/gmsh_interface.hpp"
 #include "meshing/gmsh/gmsh_session.hpp"
+#include "meshing/msh_types.hpp"
 #include "support/near.hpp"
 
 using namespace langer;
@@ -31,7 +31,7 @@ Made meshed() {
   gmsh::model::mesh::getNodes(tags, X, parametric);
   std::map<std::size_t, std::size_t> place;
   for (std::size_t i = 0; i < tags.size(); ++i) place[tags[i]] = i;
-  gmsh::model::mesh::getElementsByType(gmsh_module::hexahedron, elements, nodes);
+  gmsh::model::mesh::getElementsByType(msh_type::hexahedron, elements, nodes);
   Made made;
   std::map<std::size_t, int> number;  // of nodes that cells have; the centre of arcs is none
   for (std::size_t e = 0; e < elements.size(); ++e) {

@@ -2,60 +2,101 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "core/base/module_path.hpp"
 #include "core/base/traps.hpp"
 #include "core/base/version.hpp"
+#include "meshing/gmsh/child_process.hpp"
+#include "meshing/gmsh/packed_model.hpp"
 
 namespace langer {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& found,
-                         const std::string& hint = "") {
-  throw Failure(Exit::input, Error{{path}, "", found, "", hint});
-}
+// The advice in its message is part of what is thrown: the words go through a pipe.
+struct ModuleMissing : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
-const gmsh_module::Functions& module_for(const std::string& path) {
-  static const gmsh_module::Functions* functions = nullptr;
-  if (functions) return *functions;
+constexpr const char* missing = "gmsh, which such a file needs, ";
+
+const gmsh_module::Functions& load_module() {
   // local: libgmsh has the same Eigen templates inside as we have, which allocate with another
   // alignment
   void* module = dlopen(module_path("gmsh").c_str(), RTLD_LAZY | RTLD_LOCAL);
-  if (!module)
-    refuse(path, std::string("gmsh, which such a file needs, cannot be loaded: ") + dlerror(),
-           "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " +
-               module_path("gmsh") + "; or give the mesh as .inp");
-  const auto* found =
+  if (!module) throw ModuleMissing(std::string(missing) + "cannot be loaded: " + dlerror());
+  const auto* functions =
       static_cast<const gmsh_module::Functions*>(dlsym(module, gmsh_module::symbol));
-  if (!found || std::string(found->made_with) != version)
-    refuse(path,
-           "gmsh, which such a file needs, is called by " + module_path("gmsh") +
-               ", which is of another version of Langer",
-           "build or install Langer as a whole");
-  return *(functions = found);
+  if (!functions || std::string(functions->made_with) != version)
+    throw ModuleMissing(std::string(missing) + "is called by " + module_path("gmsh") +
+                        ", which is of another version of Langer");
+  return *functions;
 }
 
-gmsh_module::Model asked(const std::string& path, const char* what, auto call) {
-  const NoTraps in_gmsh;  // it divides zero by zero where it lays out surfaces of triangles
-  const gmsh_module::Functions& gmsh = module_for(path);
-  try {
-    return call(gmsh);
-  } catch (const std::runtime_error& words) {
-    refuse(path, std::string("gmsh cannot ") + what + " it: " + words.what());
+// `call(functions)` makes the model, in the child. `file` is what the child finds as its input.
+template <class Call>
+MshModel call_in_child(const std::string& path, const std::string& file,
+                       std::vector<std::string>& notes, const Call& call) {
+  const auto refuse = [&](const std::string& found, const std::string& hint) {
+    throw Failure(Exit::input, Error{{path}, "", found, "", hint});
+  };
+  const gmsh_module::Functions* functions = nullptr;
+  const ChildAnswer answer = run_in_child(
+      file, [&] { functions = &load_module(); },
+      [&](const std::string& input) {
+        const NoTraps in_gmsh;  // it divides zero by zero where it lays out surfaces of triangles
+        return packed(call(*functions, input));
+      });
+  if (!answer.is_restricted) {
+    const std::string note =
+        "this system cannot restrict what gmsh does (no seccomp): it reads a private copy of " +
+        path + " in a process of its own";
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
+  switch (answer.end) {
+    case ChildEnd::not_prepared:
+      if (answer.bytes.find("cannot be loaded") != std::string::npos)
+        refuse(answer.bytes, "install libgmsh (Debian: libgmsh4.8) and Langer as a whole, with " +
+                                 module_path("gmsh") + "; or give the mesh as .msh or .inp");
+      refuse(answer.bytes, "build or install Langer as a whole");
+      break;
+    case ChildEnd::failed:
+      refuse("gmsh cannot mesh it: " + answer.bytes, "");
+      break;
+    case ChildEnd::crashed:
+      refuse("gmsh cannot mesh it: " + answer.bytes,
+             "check the file in a CAD program, or try another edge");
+      break;
+    case ChildEnd::done:
+      break;
+  }
+  MshModel model;
+  try {
+    model = unpacked(answer.bytes);
+  } catch (const std::runtime_error& error) {
+    refuse(std::string("gmsh cannot mesh it: ") + error.what(), "");
+  }
+  return model;
 }
 
 }  // namespace
 
-gmsh_module::Model read_by_gmsh(const std::string& path) {
-  return asked(path, "read", [&](const auto& gmsh) { return gmsh.read(path); });
+MshModel mesh_surface_by_gmsh(const gmsh_module::Surface& surface,
+                              const gmsh_module::SolidOrder& order, const std::string& path,
+                              std::vector<std::string>& notes) {
+  return call_in_child(path, "", notes, [&](const auto& gmsh, const std::string&) {
+    return gmsh.mesh_surface(surface, order);
+  });
 }
 
-gmsh_module::Model mesh_by_gmsh(const std::string& path, const gmsh_module::SolidOrder& order) {
-  return asked(path, "mesh", [&](const auto& gmsh) { return gmsh.solid(path, order); });
+MshModel mesh_step_by_gmsh(const std::string& bytes, const gmsh_module::SolidOrder& order,
+                           const std::string& path, std::vector<std::string>& notes) {
+  return call_in_child(path, bytes, notes, [&](const auto& gmsh, const std::string& input) {
+    return gmsh.mesh_step(input, order);
+  });
 }
 
 }  // namespace langer

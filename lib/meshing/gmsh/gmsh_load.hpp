@@ -1,14 +1,21 @@
-// What gmsh makes of a file. The module with gmsh is loaded for the first of them, not with the
-// program. Failure(input): gmsh's last words, or which library is missing and what to do.
+// Meshes that gmsh makes. The module with gmsh is loaded in a child process that can read and
+// compute, but not start a program, open a connection or write a file (child_process.hpp).
+// Failure(input): gmsh's last words, that it crashed, or which library is missing and what to do.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "meshing/gmsh/gmsh_interface.hpp"
 
 namespace langer {
 
-gmsh_module::Model read_by_gmsh(const std::string& path);
-gmsh_module::Model mesh_by_gmsh(const std::string& path, const gmsh_module::SolidOrder& order);
+// `path` is the file's name in messages, `bytes` a STEP file; `notes` says when the kernel cannot
+// restrict the child.
+MshModel mesh_surface_by_gmsh(const gmsh_module::Surface& surface,
+                              const gmsh_module::SolidOrder& order, const std::string& path,
+                              std::vector<std::string>& notes);
+MshModel mesh_step_by_gmsh(const std::string& bytes, const gmsh_module::SolidOrder& order,
+                           const std::string& path, std::vector<std::string>& notes);
 
 }  // namespace langer
