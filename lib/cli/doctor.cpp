@@ -133,7 +133,7 @@ std::vector<Finding> examine() {
       machine(),
       programs(bin),
       module("gmsh",
-             "meshes from .msh, STEP and STL cannot be read; blocks, discs and .inp need no gmsh",
+             "solids from STEP and STL cannot be meshed; blocks, discs, .msh and .inp need no gmsh",
              "libgmsh4.8"),
       module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time",
              "libpetsc-real3.18")};

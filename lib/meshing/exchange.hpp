@@ -1,13 +1,13 @@
-// Meshes of other programs: Gmsh (.msh, read by gmsh itself, any version that it knows; written
-// as 4.1) and Abaqus or CalculiX (.inp). .msh: 8-node hexahedra, or 4-node tetrahedra that become
-// tet15; .inp: those, hexahedra of 20 and 27 nodes, which become hex27, and 10-node tetrahedra,
-// with their curved edges (ReferenceCell::names). What has a name there has it here:
+// Meshes of other programs: Gmsh (.msh, MSH 1, 2 and 4, text or binary; written as 4.1) and Abaqus
+// or CalculiX (.inp). .msh: 8-node hexahedra, or 4-node tetrahedra that become tet15; .inp: those,
+// hexahedra of 20 and 27 nodes, which become hex27, and 10-node tetrahedra, with their curved edges
+// (ReferenceCell::names). What has a name there has it here:
 //   bodies      .msh: physical volumes; .inp: element sets of *SOLID SECTION, without any those of *ELEMENT
 //   facet sets  .msh: physical surfaces; .inp: *SURFACE of elements; their nodes are a node set of the same name
 //   node sets   .msh: physical points and curves too; .inp: *NSET, *SURFACE of nodes, and the new nodes between theirs
 //               (mesh/raise.hpp)
 // Nodes and cells keep the file's order; nodes that no cell has are left out. Reading fails as
-// Failure(input) with the line of an .inp.
+// Failure(input) with the line of a text.
 #pragma once
 
 #include <string>
@@ -26,7 +26,8 @@ constexpr auto names(MeshFormat) { return std::array{"msh", "inp"}; }
 Mesh read_msh(const std::string& path, std::vector<std::string>& notes);
 Mesh read_inp(const std::string& path, std::vector<std::string>& notes);
 // A solid of CAD (STEP) or what triangles enclose (facets: STL), meshed by gmsh with cells of about
-// `edge` mm: face_<n> are its faces, body_<n> its bodies where there are several.
+// `edge` mm: face_<n> are its faces, body_<n> its bodies where there are several. An open surface
+// is refused; `notes` states the volume that straight edges cut off.
 Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells,
                 std::vector<std::string>& notes);
 Mesh parse_inp(const std::string& text, const std::string& shown_name,

@@ -103,22 +103,35 @@ class MergedPoints {
 
 }  // namespace
 
-Triangles parse_surface(const std::string& bytes, const std::string& shown_name) {
+Triangles parse_surface(const std::string& bytes, const std::string& shown_name,
+                        FlatTriangles flat) {
   const auto refuse = [&](int line, const std::string& found) {
-    throw Failure(Exit::input, Error{{shown_name, line, line > 0 ? 1 : 0},
-                                     "",
-                                     found,
-                                     "an STL file with triangles, normals outwards",
-                                     ""});
+    Place place{shown_name, line, 0};
+    if (line > 0) place.column = 1;
+    throw Failure(Exit::input,
+                  Error{place, "", found, "an STL file with triangles, normals outwards", ""});
   };
-  const std::vector<Vec3> corners =
-      is_binary(bytes) ? corners_of_binary(bytes) : corners_of_text(bytes, refuse);
+  std::vector<Vec3> corners;
+  if (is_binary(bytes)) {
+    corners = corners_of_binary(bytes);
+  } else {
+    // No text has a byte 0: binary data that were cut off or lengthened.
+    const bool is_text = bytes.find('\0') == std::string::npos;
+    if (!is_text && bytes.size() >= header + 4) {
+      const double n = little_endian<std::uint32_t>(bytes.data() + header);
+      refuse(0, fmt::format("no triangles: binary data of {} bytes, where {} triangles take {}",
+                            bytes.size(), n, header + 4 + static_cast<double>(record) * n));
+    }
+    corners = corners_of_text(bytes, refuse);
+  }
   if (corners.empty()) refuse(0, "no triangles");
-  Vec3 low = corners[0], high = low;
+  Vec3 low = corners[0];
+  Vec3 high = low;
   for (const Vec3& x : corners) {
     if (!x.allFinite() || !(x.lpNorm<Eigen::Infinity>() < 1e100))
       refuse(0, "a position that is not finite");
-    low = low.cwiseMin(x), high = high.cwiseMax(x);
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
   }
   const double size = (high - low).norm();
   if (!(size > 1e-100)) refuse(0, "triangle 1 has no area");
@@ -127,18 +140,24 @@ Triangles parse_surface(const std::string& bytes, const std::string& shown_name)
   for (std::size_t t = 0; 3 * t < corners.size(); ++t) {
     std::array<int, 3> c;
     for (std::size_t k = 0; k < 3; ++k) c[k] = unique.at(corners[3 * t + k]);
-    const Vec3 ab = unique.points[c[1]] - unique.points[c[0]],
-               ac = unique.points[c[2]] - unique.points[c[0]];
+    if (flat == FlatTriangles::allowed) {
+      const bool is_triangle = c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+      if (is_triangle) surface.corners.push_back(c);
+      continue;
+    }
+    const Vec3 ab = unique.points[c[1]] - unique.points[c[0]];
+    const Vec3 ac = unique.points[c[2]] - unique.points[c[0]];
     if (!(ab.cross(ac).norm() > 1e-14 * ab.norm() * ac.norm()))
       refuse(0, fmt::format("triangle {} has no area", t + 1));
     surface.corners.push_back(c);
   }
+  if (surface.corners.empty()) refuse(0, "triangle 1 has no area");
   surface.points = std::move(unique.points);
   return surface;
 }
 
-Triangles read_surface(const std::string& path) {
-  return parse_surface(read_file(path, "an STL file with triangles, normals outwards"), path);
+Triangles read_surface(const std::string& path, FlatTriangles flat) {
+  return parse_surface(read_file(path, "an STL file with triangles, normals outwards"), path, flat);
 }
 
 }  // namespace langer

@@ -10,7 +10,12 @@
 
 namespace langer {
 
-Triangles read_surface(const std::string& path);
-Triangles parse_surface(const std::string& bytes, const std::string& shown_name);
+// A triangle without area has no normal, which an indenter needs. The surface of a solid that is to
+// be meshed does not: triangles two of whose corners are one are left out, others stay.
+enum class FlatTriangles { refused, allowed };
+
+Triangles read_surface(const std::string& path, FlatTriangles flat = FlatTriangles::refused);
+Triangles parse_surface(const std::string& bytes, const std::string& shown_name,
+                        FlatTriangles flat = FlatTriangles::refused);
 
 }  // namespace langer

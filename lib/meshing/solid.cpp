@@ -65,7 +65,7 @@ class SolidMesher {
   }
 
   void read_closed_surface() {
-    const Triangles triangles = read_surface(path_);
+    const Triangles triangles = read_surface(path_, FlatTriangles::allowed);
     require_closed(triangles, path_);
     enclosed_ = enclosed_volume(triangles);
     for (const Vec3& point : triangles.points)

@@ -29,15 +29,19 @@ macro(expect_runs bin)
   run(0 ${bin}/langer show skin/run/post/curves.h5)
   expect_said("made by       langer-post")
   file(WRITE ${WORK}/block.yaml "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\nexport: [msh]\n")
-  file(WRITE ${WORK}/file.yaml "geometry: {file: {path: block.msh}}\n")  # the module with gmsh is found
+  file(WRITE ${WORK}/file.yaml "geometry: {file: {path: block.msh}}\n")
+  file(COPY ${ROOT}/tests/support/tetrahedron.stl DESTINATION ${WORK})
+  file(WRITE ${WORK}/solid.yaml "geometry: {file: {path: tetrahedron.stl, edge: 0.5}}\n")  # the module with gmsh is found
   run(0 ${bin}/langer-mesh block.yaml -o block.h5)
   run(0 ${bin}/langer-mesh file.yaml -o file.h5)
+  run(0 ${bin}/langer-mesh solid.yaml -o solid.h5)
 endmacro()
 expect_runs(${prefix}/bin)
 
 # without gmsh all runs but what needs it, and that says so
 file(RENAME ${prefix}/lib/langer/langer_gmsh.so ${WORK}/hidden.so)
-run(3 ${prefix}/bin/langer-mesh file.yaml -o none.h5)
+run(0 ${prefix}/bin/langer-mesh file.yaml -o file.h5)
+run(3 ${prefix}/bin/langer-mesh solid.yaml -o none.h5)
 expect_said("which such a file needs")
 expect_said("hint: ")
 run(0 ${prefix}/bin/langer-mesh block.yaml -o block.h5 --set "export=[inp]")
