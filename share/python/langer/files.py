@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterator
 import numpy as np
 
 from .arrays import Array, Quantity
+from .checks import check_kind, check_own_values, check_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -53,10 +54,13 @@ class File:
         self.path = Path(path)
         with self._open() as f:
             self.attributes: dict[str, Any] = {name: _text(value) for name, value in f.attrs.items()}
+            check_kind(self.path, self.attributes)
+            check_own_values(self.path, f, _h5py())
 
     def _open(self) -> Any:
         if not self.path.exists():
             raise FileNotFoundError(f"{self.path}: there is no such file")
+        check_whole(self.path)
         try:
             return _h5py().File(self.path, "r")
         except OSError as trouble:
@@ -412,7 +416,8 @@ def read(path: str | os.PathLike[str]) -> Any:
     .h5, .hdf, .vtkhdf, .part   the class of its schema: Solution, Curves, Material, Sweep, Mesh, Snapshot, Sensitivity
     .csv                        a pandas table; what its heads say of units is in `attrs["units"]`, and left out of the names
 
-    Raises FileNotFoundError, OSError where it is no HDF5 file, ValueError where no program of Langer wrote it.
+    Raises FileNotFoundError; OSError where it is damaged (its checksum tells) or no HDF5 file; ValueError where no program of Langer
+    wrote it, or one of another version, or its values are in other units or in another file.
     """
     path = Path(path)
     if path.suffix == ".csv":

@@ -179,6 +179,70 @@ def test_what_is_wrong_is_said(project, tmp_path):
         langer.read(tmp_path / "text.h5")
 
 
+def test_a_file_with_one_flipped_bit_is_refused(run, tmp_path):
+    """Anywhere in the file: in its values, its names, its attributes and its last byte before the seal."""
+    whole = run.read("solve", alpha=0).path.read_bytes()
+    content = len(whole) - len(b"\nlanger seal:0123456789abcdef\n")
+    for place in (0, 100, content // 3, content // 2, content - 1):
+        for bit in (0, 7):
+            bytes_ = bytearray(whole)
+            bytes_[place] ^= 1 << bit
+            damaged = tmp_path / f"flipped_{place}_{bit}.h5"
+            damaged.write_bytes(bytes_)
+            with pytest.raises(OSError, match="damaged: its content does not fit its checksum; make it again"):
+                langer.read(damaged)
+    (tmp_path / "cut.h5").write_bytes(whole[:content // 2] + whole[content:])
+    with pytest.raises(OSError, match="damaged"):
+        langer.read(tmp_path / "cut.h5")
+    copied = tmp_path / "whole.h5"
+    copied.write_bytes(whole)
+    assert langer.read(copied).steps == run.read("solve", alpha=0).steps
+    copied.write_bytes(bytes([whole[0] ^ 1]) + whole[1:])  # it was whole when it was read the first time
+    with pytest.raises(OSError, match="damaged"):
+        langer.read(copied)
+
+
+def test_a_file_that_a_killed_run_left_is_refused(run, tmp_path):
+    left = tmp_path / "solution.h5.part"
+    left.write_bytes(run.read("solve", alpha=0).path.read_bytes()[:-len(b"\nlanger seal:0123456789abcdef\n")])
+    with pytest.raises(OSError, match="left by a run that was killed.*run the same command again"):
+        langer.read(left)
+
+
+def test_other_versions_units_and_files_are_refused(run, tmp_path):
+    h5py = pytest.importorskip("h5py")
+
+    def changed_copy(name, change):
+        path = tmp_path / name
+        path.write_bytes(run.read("solve", alpha=0).path.read_bytes())
+        with h5py.File(path, "r+") as file:  # cuts off the seal: from here on the file is read on trust
+            change(file)
+        return path
+
+    def set_attribute(name, value):
+        return lambda file: file.attrs.__setitem__(name, value)
+
+    assert langer.read(changed_copy("same.h5", lambda file: None)).steps == run.read("solve", alpha=0).steps
+    with pytest.raises(ValueError, match="solution, version 99; expected 1 to 3.*make it again"):
+        langer.read(changed_copy("newer.h5", set_attribute("schema_version", 99)))
+    with pytest.raises(ValueError, match="units m N Pa s rad; expected mm N MPa s deg: convert"):
+        langer.read(changed_copy("metres.h5", set_attribute("units", "m N Pa s rad")))
+
+    def link_elsewhere(file):
+        del file["history/t"]
+        file["history/t"] = h5py.ExternalLink(str(run["mesh"].path), "VTKHDF/Points")
+
+    with pytest.raises(ValueError, match="history/t is a link into another file"):
+        langer.read(changed_copy("linked.h5", link_elsewhere))
+
+    def store_elsewhere(file):
+        del file["history/t"]
+        file["history"].create_dataset("t", (4,), "u1", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
+
+    with pytest.raises(ValueError, match="history/t keeps its values in another file"):
+        langer.read(changed_copy("external.h5", store_elsewhere))
+
+
 def test_a_solve_that_fails_raises_what_it_said(project, tmp_path):
     with pytest.raises(langer.LangerError) as failed:
         langer.run("pipelines/smoke.yaml", set={"solve.solver.newton.iterations": 1, "solve.path.smallest": 0.4}, folder=tmp_path / "run")
