@@ -19,6 +19,8 @@
 #include "core/base/error.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/memory.hpp"
+#include "core/base/output_file.hpp"
+#include "core/base/printable.hpp"
 #include "core/base/ranks.hpp"
 #include "core/base/say.hpp"
 #include "core/base/stopwatch.hpp"
@@ -47,6 +49,10 @@ std::string version_line(const std::string& program) {
 std::string command_line(int argc, char** argv) {
   std::string line = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  // The line is a comment in logs and Makefiles, which a line break would end.
+  for (char& c : line) {
+    if (is_control(c)) c = '?';
+  }
   return line;
 }
 
@@ -60,7 +66,7 @@ void RunLog::open(const std::string& path, const std::string& command, bool goes
   std::error_code failed;  // a folder that cannot be made has no file either
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);
-  said::log = std::fopen(path.c_str(), goes_on ? "a" : "w");
+  said::log = open_log_file(path, goes_on);
   if (!said::log)
     throw Failure(Exit::input, Error{{path},
                                      "",

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 
+#include "core/base/printable.hpp"
+
 namespace langer {
 
 std::string text(const Error& e) {
-  std::string s = e.where.file;
+  // Names come from files that somebody else wrote: their control characters are shown, not obeyed.
+  const auto words = [](const std::string& part) {
+    return printable(part, "\n\t");
+  };
+  std::string s = printable(e.where.file);
   if (e.where.line > 0)
     s += ":" + std::to_string(e.where.line) + ":" + std::to_string(e.where.column);
-  if (!e.key.empty()) s += (s.empty() ? "" : ": ") + e.key;
-  if (!e.found.empty()) s += (s.empty() ? "" : ": ") + e.found;
-  if (!e.expected.empty()) s += "; expected " + e.expected;
-  if (!e.hint.empty()) s += "\n  hint: " + e.hint;
+  if (!e.key.empty()) s += (s.empty() ? "" : ": ") + printable(e.key);
+  if (!e.found.empty()) s += (s.empty() ? "" : ": ") + words(e.found);
+  if (!e.expected.empty()) s += "; expected " + words(e.expected);
+  if (!e.hint.empty()) s += "\n  hint: " + words(e.hint);
   return s;
 }
 

@@ -1,4 +1,5 @@
 // The parser: yaml-cpp's events, whose marks are exact, become trees; then includes are merged.
+#include "core/base/input_file.hpp"
 #include "core/config/tree.hpp"
 #include "core/config/yaml_words.hpp"
 
@@ -330,6 +331,11 @@ Tree load(const std::string& path, Reading& reading) {
   std::error_code ec;
   if (fs::is_directory(path, ec))
     throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
+  // A pipe of the shell, langer-mesh <(...), has somebody at its other end; any other may wait for
+  // ever.
+  const bool of_shell = path == "/dev/stdin" || path.starts_with("/dev/fd/");
+  if (!of_shell && fs::exists(path, ec) && !fs::is_regular_file(path, ec))
+    throw Failure(Exit::input, Error{{path, 0, 0}, "", unreadable_reason(path), "a YAML file", ""});
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Failure(Exit::input,

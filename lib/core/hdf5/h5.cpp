@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/input_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/hdf5/h5_handle.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
@@ -250,21 +252,51 @@ std::string library() {
   return fmt::format("HDF5 {}.{}.{}", major, minor, release);
 }
 
+namespace {
+
+// The name under which HDF5 opens a file that is open here already. H5Fcreate follows links; this
+// name leads to the open file itself, whatever stands under its path by now.
+std::string name_of_descriptor(int fd, const std::string& path) {
+  const std::string name = fmt::format("/proc/self/fd/{}", fd);
+  std::error_code none;
+  return std::filesystem::exists(name, none) ? name : path;
+}
+
+// Whether HDF5 has opened the same file as `fd`.
+bool is_open_by(hid_t file, int fd) {
+  void* handle = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 || !handle) return false;
+  struct stat by_hdf5 {};
+  struct stat by_us {};
+  if (::fstat(*static_cast<int*>(handle), &by_hdf5) != 0) return false;
+  if (::fstat(fd, &by_us) != 0) return false;
+  return by_hdf5.st_dev == by_us.st_dev && by_hdf5.st_ino == by_us.st_ino;
+}
+
+}  // namespace
+
 File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
   need_own_output(path);
   auto file = std::make_shared<OpenFile>();
-  file->path = path, file->current = path + ".part", file->unfinished = unfinished;
+  file->path = path;
+  file->current = path + ".part";
+  file->unfinished = unfinished;
+  const int fd = create_file(file->current);
   const Handle list = creation(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  file->id = H5Fcreate(file->current.c_str(), H5F_ACC_TRUNC, list, access);
-  if (file->id < 0)
+  const std::string name = name_of_descriptor(fd, file->current);
+  file->id = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, list, access);
+  const bool same = file->id >= 0 && is_open_by(file->id, fd);
+  ::close(fd);
+  if (!same) {
     throw Failure(Exit::input, Error{{file->current},
                                      "",
                                      "cannot be created",
                                      "",
                                      "does the folder exist, and may it be written?"});
+  }
   file->writing = true;
   file->size = std::numeric_limits<std::uintmax_t>::max();
   return File(file);

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/output_file.hpp"
 #include "core/hdf5/checksum.hpp"
 #include "core/hdf5/replace.hpp"
 
@@ -70,12 +71,7 @@ void append_seal(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const std::string seal = fmt::format("{}{:016x}\n", seal_begin,
                                        over_blocks(in, std::filesystem::file_size(path), checksum));
-  const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND);
-  if (fd < 0) cannot_write(path);
-  const bool written = ::write(fd, seal.data(), seal.size()) == static_cast<ssize_t>(seal.size()) &&
-                       ::fsync(fd) == 0;
-  ::close(fd);
-  if (!written) cannot_write(path);
+  if (!append_durably(path, seal)) cannot_write(path);
 }
 
 Seal seal_of(const std::string& path) {
@@ -107,30 +103,39 @@ void sync_folder_of(const std::string& path) {
 
 namespace {
 
-// beside it, to be renamed; returns its path
-std::string write_part(const std::string& path, const std::string& text) {
-  need_replaceable_by(path, text);
+// Writes the bytes into <path>.part, which the caller renames; returns that name.
+std::string write_part(const std::string& path, const std::string& bytes) {
   std::string part = path + ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (!out) {
-    const int reason = errno;
-    std::remove(part.c_str());
-    errno = reason;
-    cannot_write(path);
-  }
-  return part;
+  const int fd = create_file(part);
+  const bool written = write_bytes_to(fd, bytes);
+  int reason = errno;
+  const bool closed = ::close(fd) == 0;
+  if (written && closed) return part;
+  if (written) reason = errno;
+  ::unlink(part.c_str());
+  errno = reason;
+  cannot_write(path);
+}
+
+void rename_or_refuse(const std::string& part, const std::string& path) {
+  if (std::rename(part.c_str(), path.c_str()) != 0) cannot_write(path);
 }
 
 }  // namespace
 
 void write_text_file(const std::string& path, const std::string& text) {
+  need_replaceable_by(path, text);
   rename_durably(write_part(path, text), path);
 }
 
 void write_text_file_soon(const std::string& path, const std::string& text) {
-  if (std::rename(write_part(path, text).c_str(), path.c_str()) != 0) cannot_write(path);
+  need_replaceable_by(path, text);
+  rename_or_refuse(write_part(path, text), path);
+}
+
+void replace_file(const std::string& path, const std::string& bytes) {
+  need_replaceable(path);
+  rename_or_refuse(write_part(path, bytes), path);
 }
 
 }  // namespace langer

@@ -17,5 +17,8 @@ void write_text_file(const std::string& path, const std::string& text);  // thro
 // As write_text_file, without waiting for the disk: for the many small files that the same command
 // makes again at any time.
 void write_text_file_soon(const std::string& path, const std::string& text);
+// Replaces a file, whatever it held, without waiting for the disk: pictures whose places were
+// looked at before.
+void replace_file(const std::string& path, const std::string& bytes);
 
 }  // namespace langer

@@ -227,9 +227,7 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name,
                        names(PictureFormat{})[static_cast<std::size_t>(format)],
                        inch * drawing.width, inch * drawing.height, font,
                        style.drawing_unit() / 0.75);
-    s += fmt::format(
-        "set output {}\n",
-        gnuplot_file(name + "." + names(PictureFormat{})[static_cast<std::size_t>(format)]));
+    s += gnuplot_output(name + "." + names(PictureFormat{})[static_cast<std::size_t>(format)]);
     s +=
         writer.polygons.empty()
             ? "plot NaN\n"

@@ -9,13 +9,20 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
+#include "core/base/output_file.hpp"
+#include "core/base/printable.hpp"
+#include "core/hdf5/seal.hpp"
 #include "results/plot/figure_style.hpp"
 
 namespace langer {
@@ -53,7 +60,11 @@ std::string gnuplot_string(const std::string& text) {
   std::string s = "'";
   for (char c : text) {
     if (c == '\'') s += '\'';
-    s += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    if (is_control(c)) {
+      s += ' ';
+    } else {
+      s += c;
+    }
   }
   return s + "'";
 }
@@ -235,53 +246,117 @@ std::string gnuplot_script(const Plot& plot, const std::string& name, const Figu
     draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
   s += factors_of(plot, draw);
   for (PictureFormat format : style.formats)
-    s += fmt::format("set terminal {}\nset output {}\n{}\n", terminal_of(format, style),
-                     gnuplot_file(name + "." + names(format)[static_cast<std::size_t>(format)]),
+    s += fmt::format("set terminal {}\n{}{}\n", terminal_of(format, style),
+                     gnuplot_output(name + "." + names(format)[static_cast<std::size_t>(format)]),
                      draw);
   return s + "unset output\n";
 }
 
-std::string run_gnuplot(const std::string& folder, const std::string& script) {
-  const std::string log = (std::filesystem::path(folder) / (script + ".log")).string();
+std::string gnuplot_output(const std::string& file) {
+  return fmt::format("if (!exists('into')) into = ''\nset output into.{}\n", gnuplot_file(file));
+}
+
+namespace {
+
+// The lines "/CreationDate (D:20260131120000Z)" of a PDF and "%%CreationDate: Sat Jan 31 12:00:00
+// 2026" of an EPS. Cairo takes the time of day for them; both have a fixed length, so another time
+// may be written over them without moving a byte.
+void set_creation_date(std::string& picture, std::time_t epoch) {
+  std::tm parts{};
+  if (!gmtime_r(&epoch, &parts)) return;
+  const auto overwrite = [&](const std::string& before, const char* format) {
+    std::array<char, 64> date{};
+    const std::size_t length = std::strftime(date.data(), date.size(), format, &parts);
+    const std::size_t at = picture.find(before);
+    if (at == std::string::npos || at + before.size() + length > picture.size()) return;
+    picture.replace(at + before.size(), length, date.data(), length);
+  };
+  overwrite("/CreationDate (D:", "%Y%m%d%H%M%S");
+  overwrite("\n%%CreationDate: ", "%a %b %e %H:%M:%S %Y");
+}
+
+// Runs gnuplot in `folder` and waits for it. Its pictures go to the folder `into` below, its
+// complaints to a log there. Returns what went wrong.
+std::string wait_for_gnuplot(const std::string& folder, const std::string& script,
+                             const std::string& into) {
+  const std::string log = (std::filesystem::path(folder) / into / "log").string();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int log_flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW;
+  posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), log_flags, 0644);
   posix_spawn_file_actions_addchdir_np(&actions, folder.empty() ? "." : folder.c_str());
-  std::string program = "gnuplot", file = "./" + script;  // a name may begin with -
-  char* const arguments[] = {program.data(), file.data(), nullptr};
-  pid_t child = 0;
-  posix_spawnattr_t attributes;  // what this program ignores, gnuplot need not
+
+  // The signals that this program ignores are gnuplot's own business.
+  posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t usual;
-  sigemptyset(&usual), sigaddset(&usual, SIGPIPE), sigaddset(&usual, SIGXFSZ);
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  sigaddset(&usual, SIGXFSZ);
   posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+
+  std::string program = "gnuplot";
+  std::string execute = "-e";
+  std::string place = fmt::format("into = '{}/'", into);
+  std::string file = "./" + script;  // a name may begin with -
+  char* const arguments[] = {program.data(), execute.data(), place.data(), file.data(), nullptr};
+  pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  std::string problem;
-  if (error) {
-    problem = error == ENOENT ? "there is no gnuplot on the PATH"
-                              : fmt::format("gnuplot cannot be started: {}", std::strerror(error));
-  } else {
-    int status = 0;
-    const auto deadline = std::chrono::steady_clock::now() + longest;
-    pid_t ended = 0;
-    while ((ended = waitpid(child, &status, WNOHANG)) == 0 &&
-           std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    if (ended == 0) {
-      kill(child, SIGKILL);
-      waitpid(child, &status, 0);
-      problem = fmt::format("gnuplot took longer than {} s", longest.count());
-    } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-      problem = "gnuplot: " + last_line(log);
-    }
+  if (error == ENOENT) return "there is no gnuplot on the PATH";
+  if (error) return fmt::format("gnuplot cannot be started: {}", std::strerror(error));
+
+  int status = 0;
+  pid_t ended = 0;
+  const auto deadline = std::chrono::steady_clock::now() + longest;
+  while (ended == 0 && std::chrono::steady_clock::now() < deadline) {
+    ended = waitpid(child, &status, WNOHANG);
+    if (ended == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  if (ended == 0) {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+    return fmt::format("gnuplot took longer than {} s", longest.count());
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return "gnuplot: " + last_line(log);
+  return "";
+}
+
+// Moves the pictures from the private folder to their places. With SOURCE_DATE_EPOCH they show that
+// time, so that two runs give the same bytes.
+void move_pictures(const std::filesystem::path& folder, const std::filesystem::path& into) {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+  for (const auto& entry : std::filesystem::directory_iterator(into)) {
+    if (!entry.is_regular_file() || entry.path().filename() == "log") continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    std::string picture((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (epoch)
+      set_creation_date(picture, static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)));
+    replace_file((folder / entry.path().filename()).string(), picture);
+  }
+}
+
+}  // namespace
+
+std::string run_gnuplot(const std::string& folder, const std::string& script) {
+  // gnuplot opens its pictures as any program does, through links. It gets an empty folder of its
+  // own, where none can lie.
+  const std::string into = make_private_folder(folder);
+  if (into.empty())
+    return fmt::format("gnuplot has no folder to draw in ({})", std::strerror(errno));
+  const std::filesystem::path drawn = std::filesystem::path(folder) / into;
+  std::string problem = wait_for_gnuplot(folder, script, into);
+  try {
+    if (problem.empty()) move_pictures(folder, drawn);
+  } catch (const Failure& failure) {
+    problem = failure.what();
   }
   std::error_code ignored;
-  std::filesystem::remove(log, ignored);
+  std::filesystem::remove_all(drawn, ignored);
   return problem;
 }
 

@@ -59,11 +59,14 @@ std::string gnuplot_string(const std::string& text);  // as a gnuplot string
 // a file's name as one: "<", "|", "-", "$" and the like at its begin would make it a pipe, a stream
 // or a block of data
 std::string gnuplot_file(const std::string& name);
+// Sends what follows to this file: beside the script if it is run by hand; in a folder of its own,
+// named by the variable `into`, if run_gnuplot runs it.
+std::string gnuplot_output(const std::string& file);
 std::string literal(const std::string& name);  // enhanced text that prints as it stands
 std::string plain(const std::string& text);    // enhanced text without its marks: σ_xx for σ_{xx}
 
-// Runs <folder>/<script> there. Returns what went wrong, "" if nothing: no gnuplot on the PATH, its
-// complaint, too slow.
+// Runs <folder>/<script> there and moves the pictures beside it. Returns what went wrong, "" if
+// nothing: no gnuplot on the PATH, its complaint, too slow.
 std::string run_gnuplot(const std::string& folder, const std::string& script);
 
 }  // namespace langer

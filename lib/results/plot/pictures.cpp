@@ -10,7 +10,7 @@
 namespace langer {
 
 void Pictures::need_places(const std::string& name, bool svg_too) const {
-  std::vector<std::string> types{".gp.log"};
+  std::vector<std::string> types;
   for (PictureFormat format : style_.formats)
     if (svg_too || format != PictureFormat::svg)
       types.push_back(std::string(".") + names(format)[static_cast<std::size_t>(format)]);

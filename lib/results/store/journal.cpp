@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/output_file.hpp"
 #include "core/hdf5/checksum.hpp"
 #include "core/hdf5/seal.hpp"
 
@@ -63,7 +64,7 @@ std::uint64_t size_of(int fd) {
 }  // namespace
 
 Journal::Journal(const std::string& path) : path_(path) {
-  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+  fd_ = open_kept_file(path);
   if (fd_ < 0) cannot_write(path, "does the folder exist, and may it be written?");
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);

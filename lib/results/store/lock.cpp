@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/output_file.hpp"
 
 namespace langer {
 
@@ -45,16 +46,25 @@ bool is_named(int fd, const std::string& path) {
 OutputLock::OutputLock(const std::string& output, const std::string& command)
     : path_(output + ".lock") {
   while (true) {
-    fd_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    fd_ = open_kept_file(path_);
     if (fd_ < 0)
       throw Failure(Exit::input, Error{{output},
                                        "",
                                        fmt::format("cannot be written ({})", std::strerror(errno)),
                                        "",
                                        "does the folder exist, and may it be written?"});
+    std::string holder = content(fd_);
+    if (!holder.empty() && !holder.starts_with("pid ")) {
+      close(fd_);
+      throw Failure(Exit::input, Error{{path_},
+                                       "",
+                                       "is there already and is no lock of langer",
+                                       "",
+                                       "remove or rename it, or choose another output (-o)"});
+    }
     if (flock(fd_, LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) return;  // a file system without locks
-      const std::string holder = content(fd_);
+      holder = content(fd_);
       close(fd_);
       throw Failure(Exit::input,
                     Error{{output},
@@ -67,8 +77,8 @@ OutputLock::OutputLock(const std::string& output, const std::string& command)
     close(fd_);
   }
   const std::string text = this_run(command);
-  // on a full disk the lock holds without saying whose it is
-  if (ftruncate(fd_, 0) != 0 || write(fd_, text.data(), text.size()) < 0) return;
+  // A full disk leaves the lock without words; it holds all the same.
+  if (ftruncate(fd_, 0) == 0 && lseek(fd_, 0, SEEK_SET) == 0) write_bytes_to(fd_, text);
 }
 
 OutputLock::~OutputLock() {
