@@ -51,10 +51,12 @@ class Reading {
     p.file = tree.place.file;
     if (!is_map(tree, "")) return p;
     known_keys(tree, "", {"pipeline", "nodes"});
-    if (const Tree* name = need(tree, "", "pipeline", "the pipeline's name"))
+    if (const Tree* name = need(tree, "", "pipeline", "the pipeline's name")) {
       p.name = text(*name, "pipeline");
-    if (!p.name.empty() && !is_name(p.name))
-      bad_name(tree.find("pipeline")->place, "pipeline", p.name);
+      if (name->kind == Tree::Kind::scalar && !is_name(p.name)) {
+        bad_name(name->place, "pipeline", p.name);
+      }
+    }
     const Tree* nodes = need(tree, "", "nodes", "a map of nodes");
     if (!nodes || !is_map(*nodes, "nodes")) return p;
     if (nodes->map.empty()) f.say(nodes->place, "nodes", "found no nodes", "at least one");

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/base/output_file.hpp"
+#include "core/base/printable.hpp"
 #include "core/config/reader.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
@@ -199,18 +201,25 @@ bool holds(const fs::path& path, const std::string& text) {
   return file.good() && found.str() == text;
 }
 
-void make_folder(const fs::path& path) {
-  std::error_code ec;
-  fs::create_directories(path, ec);
-  if (!fs::is_directory(path))
-    throw Failure(Exit::input, Error{{path.string()}, "", "this folder cannot be made", "", ""});
-}
-
-bool write_if_changed(const fs::path& path, const std::string& text) {
+// Writes <folder>/<file> unless it holds the text already. The folder is the run's, and `file` may
+// name folders below it.
+bool write_if_changed(const fs::path& folder, const std::string& file, const std::string& text) {
+  const fs::path path = folder / file;
+  make_folder_below(folder.string(), path.parent_path().string());
+  need_replaceable(path.string());
   if (holds(path, text)) return false;
-  make_folder(path.parent_path());
   write_text_file_soon(path.string(), text);
   return true;
+}
+
+// The names stand in comments of the Makefile, where a line break would begin a rule.
+void refuse_control_characters(const std::string& name, const char* what) {
+  if (!has_control(name)) return;
+  throw Failure(Exit::input, Error{{name},
+                                   "",
+                                   fmt::format("the name of the {} has a control character", what),
+                                   "a name without line breaks",
+                                   "rename it: it becomes a line of the Makefile"});
 }
 
 }  // namespace
@@ -246,6 +255,8 @@ struct Planned {
 // siblings: array jobs of one node start together, and none waits for another
 Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides,
                 bool siblings, bool with_data = false) {
+  refuse_control_characters(pipeline_file, "pipeline's file");
+  refuse_control_characters(folder, "run's folder");
   Tree tree = load_yaml(pipeline_file);
   apply(overrides, tree);
   set_base(tree, "");
@@ -273,27 +284,32 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
                 const std::string& command, PlanFor others, const Overrides& overrides) {
   auto [planning, report, name, steps] =
       planned(pipeline_file, std::move(folder), overrides, !others.slurm);
-  make_folder(report.folder);
-  const std::string makefile = (fs::path(report.folder) / "Makefile").string(),
-                    snakefile = (fs::path(report.folder) / "Snakefile").string();
+  make_folder_below(report.folder, report.folder);
+  const fs::path run = report.folder;
+  const std::string makefile = (run / "Makefile").string();
   need_own_text(makefile, planned_by);
-  if (others.snakemake) need_own_text(snakefile, planned_by);
+  if (others.snakemake) need_own_text((run / "Snakefile").string(), planned_by);
   begin_beside(makefile);
   const OutputLock lock(makefile, command);
-  for (const TextFile& file : planning.files)
-    report.changed += write_if_changed(fs::path(report.folder) / file.path, file.text);
+  for (const TextFile& file : planning.files) {
+    report.changed += write_if_changed(run, file.path, file.text);
+  }
   const std::string seen_bin = as_make_reads(relative_path(bin, report.folder));
   const std::string file_name = fs::path(pipeline_file).filename().string();
-  write_if_changed(makefile, makefile_text(file_name, seen_bin, planning.rules, planning.finals));
-  if (others.snakemake)
-    write_if_changed(snakefile,
+  write_if_changed(run, "Makefile",
+                   makefile_text(file_name, seen_bin, planning.rules, planning.finals));
+  if (others.snakemake) {
+    write_if_changed(run, "Snakefile",
                      snakefile_text(file_name, seen_bin, planning.rules, planning.finals));
-  if (others.slurm)
+  }
+  if (others.slurm) {
     for (const SlurmFile& file : slurm_files(name, steps)) {
-      const fs::path path = fs::path(report.folder) / file.name;
-      write_if_changed(path, file.text);
-      if (file.program) fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
+      write_if_changed(run, file.name, file.text);
+      if (file.program) {
+        fs::permissions(run / file.name, fs::perms::owner_exec, fs::perm_options::add);
+      }
     }
+  }
   return report;
 }
 
