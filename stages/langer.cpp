@@ -79,9 +79,10 @@ int crate(const Given& given) {
   const std::string& folder = given.places[0];
   if (!given.same_as.empty()) return put_out(same_results(folder, given.same_as) + "\n"), 0;
   const CrateReport report = write_crate(folder, given.crate);
+  for (const std::string& file : report.copied) say_line("langer: copied {}/{}", folder, file);
   say_line(
       "langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: sh {}/reproduce",
-      folder, report.files, report.actions, report.inputs, folder);
+      folder, report.files, report.actions, report.copied.size(), folder);
   return 0;
 }
 
@@ -105,7 +106,8 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
                                    {"--same-as", &given.same_as},
                                    {"--title", &given.crate.title},
                                    {"--author", &given.crate.author},
-                                   {"--license", &given.crate.license}})
+                                   {"--license", &given.crate.license},
+                                   {"--root", &given.crate.root}})
     if (usage.find(name)) options.text(name, *text);
   for (const auto& [name, flag] : {std::pair{"--config", &given.config},
                                    {"--failed", &given.failed},

@@ -7,20 +7,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace langer {
 
 struct CrateWords {
-  std::string title, author,
-      license;  // empty: from the pipeline; nobody; left to whoever publishes it
+  // empty: from the pipeline; nobody; left to whoever publishes it
+  std::string title, author, license;
+  // Folder of the project: files are copied from below it only. Empty: the current folder.
+  std::string root = "";
 };
 
 struct CrateReport {
-  std::size_t files = 0, actions = 0, inputs = 0;  // inputs: copied from outside
+  std::size_t files = 0, actions = 0;
+  std::vector<std::string> copied;  // places in the crate of files from outside of the folder
 };
 
-// throws Failure(input) where a step is not up to date, or an input is no longer what a result was
-// made from
+// A file is copied only if a config or a command of the run names it, a result records the same
+// content of it, it lies below the root and no link leads to it. Throws Failure(input) otherwise,
+// and where a step is not up to date, or an input is no longer what a result was made from
 CrateReport write_crate(const std::string& folder, const CrateWords& words);
 
 // One line; throws Failure(input) with what differs: content ids of all HDF5 files, and tables
