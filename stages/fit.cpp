@@ -2,6 +2,7 @@
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
 #include "core/base/interrupt.hpp"
+#include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
 #include "export/cards.hpp"
 #include "identification/fit/cross_check.hpp"
@@ -48,9 +49,27 @@ void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) 
     job.say("{}", line);
 }
 
+// A table with other columns than those of this fit is somebody else's. It is found before the
+// search, not after it.
+void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
+  FitRecord columns;
+  for (const Test& test : problem.tests) {
+    FittedTest one;
+    one.kind = names(test.kind)[static_cast<std::size_t>(test.kind)];
+    one.measure = names(test.measure)[static_cast<std::size_t>(test.measure)];
+    columns.tests.push_back(one);
+  }
+  if (!columns.tests.empty()) need_replaceable_by(job.beside("fit.csv"), fit_csv(columns));
+  need_replaceable_by(job.beside("parameters.csv"), parameters_csv(columns));
+  for (const Card& card : cards(job.config.law)) {
+    need_replaceable_by(job.beside(card.file), card.text);
+  }
+}
+
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
+  check_side_files(job, problem);
   for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
   std::optional<InverseFit> scenes;
   std::optional<Interruptible> at_the_end_of_an_increment;
@@ -108,9 +127,17 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   return read_summary(job.output);
 }
 
+std::vector<std::string> side_files(const FitConfig& config) {
+  std::vector<std::string> names{"parameters.csv"};
+  if (!config.data.empty()) names.push_back("fit.csv");
+  for (const Card& card : cards(config.law)) names.push_back(card.file);
+  return names;
+}
+
 }  // namespace
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit_stage);
+  return langer::run_stage<langer::FitConfig>(argc, argv, "fit", langer::fit_stage,
+                                              langer::side_files);
 }

@@ -204,7 +204,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   }
   Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
 
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style);
+  Pictures pictures(job.beside(""), config.figure_style);
   std::vector<QuantityEffects> effects;
   const Design* design =
       config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
@@ -238,9 +238,20 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   return {};
 }
 
+std::vector<std::string> side_files(const GatherConfig& config) {
+  std::vector<std::string> names{"table.csv"};
+  for (const auto& [name, figure] : config.figures) {
+    names.push_back(name + ".csv");
+    names.push_back(name + ".gp");
+  }
+  for (const auto& [name, map] : config.maps) names.push_back(name + ".gp");
+  return names;
+}
+
 }  // namespace
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  return langer::run_stage<langer::GatherConfig>(argc, argv, "gather", langer::gather_sweep);
+  return langer::run_stage<langer::GatherConfig>(argc, argv, "gather", langer::gather_sweep,
+                                                 langer::side_files);
 }

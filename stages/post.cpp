@@ -5,6 +5,7 @@
 
 #include "arguments.hpp"
 #include "core/base/counted.hpp"
+#include "core/base/output_file.hpp"
 #include "core/hdf5/seal.hpp"
 #include "export/write_decks.hpp"
 #include "mechanics/material/ellipticity.hpp"
@@ -289,11 +290,7 @@ void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution,
 void write_series(const Job<PostConfig>& job, const Solution& solution,
                   const ContactStates& contacts) {
   const SolutionHeader& header = solution.reader.header();
-  const std::string folder = job.beside("series");
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (!std::filesystem::is_directory(folder))
-    throw Failure(Exit::input, Error{{folder}, "", "this folder cannot be made", "", ""});
+  make_folder_below(job.beside(""), job.beside("series"));
   std::vector<std::pair<double, std::string>> files;
   for (int row = 0; row <= solution.reader.n_steps(); ++row) {
     StepRecord record = solution.record(row);
@@ -389,10 +386,11 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (int row : snapshots)
     write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
   if (config.series) write_series(job, solution, contacts);
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(), config.figure_style,
-                    config.draw == Draw::always);
-  draw_curves(job, config.columns, csv_file.filename().string(), static_cast<int>(table.t.size()),
-              pictures);
+  Pictures pictures(job.beside(""), config.figure_style, config.draw == Draw::always);
+  // Scripts name the table as their own folder sees it.
+  std::string table_file = csv_file.filename().string();
+  if (job.side_folder != csv_file.parent_path()) table_file = "../" + table_file;
+  draw_curves(job, config.columns, table_file, static_cast<int>(table.t.size()), pictures);
   draw_maps(job, curves.maps, pictures);
   for (const auto& [name, keyed] : renders)
     pictures.draw(
@@ -413,6 +411,15 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
           counted(config.figures.size() + config.maps.size() + renders.size(), "figure"),
           config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
   return curves.summary;
+}
+
+std::vector<std::string> side_files(const PostConfig& config) {
+  std::vector<std::string> names;
+  for (const auto& [name, figure] : config.figures) names.push_back(name + ".gp");
+  for (const auto& [name, map] : config.maps) names.push_back(name + ".gp");
+  for (const auto& [name, render] : renders_of(config)) names.push_back(name + ".gp");
+  if (config.series) names.push_back("series.pvd");
+  return names;
 }
 
 // --export: the solved scene as decks of other programs, and nothing else
@@ -450,5 +457,6 @@ int main(int argc, char** argv) {
     return std::string_view(a).starts_with("--export");
   };
   if (std::any_of(argv + 1, argv + argc, exports)) return langer::export_scene(argc, argv);
-  return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post);
+  return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post,
+                                               langer::side_files);
 }

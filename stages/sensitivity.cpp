@@ -143,10 +143,17 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   return summary_of(record);
 }
 
+std::vector<std::string> side_files(const SensitivityConfig& config) {
+  std::vector<std::string> names{"sensitivity.csv", "sensitivity_zones.csv"};
+  if (config.morris) names.push_back("sensitivity_morris.csv");
+  if (config.sobol) names.push_back("sensitivity_sobol.csv");
+  return names;
+}
+
 }  // namespace
 }  // namespace langer
 
 int main(int argc, char** argv) {
   return langer::run_stage<langer::SensitivityConfig>(argc, argv, "sensitivity",
-                                                      langer::sensitivity);
+                                                      langer::sensitivity, langer::side_files);
 }

@@ -24,7 +24,8 @@ namespace langer {
 struct Task {
   Where where;  // place of a config key, for errors found later
   InputFiles inputs;
-  std::string output;  // main output file; side files stand beside it
+  std::string output;       // main output file
+  std::string side_folder;  // of the side files: beside the output (results/store/side_files.hpp)
   Identity identity;
   bool quiet = false;
   bool verbose = false;
@@ -34,7 +35,7 @@ struct Task {
   bool has(const std::string& port) const { return inputs.count(port) > 0; }
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
   std::string beside(const std::string& name) const {
-    return (std::filesystem::path(output).parent_path() / name).string();
+    return (std::filesystem::path(side_folder) / name).string();
   }
 
   Voice voice() const { return {identity.stage, quiet, verbose}; }
@@ -58,19 +59,26 @@ struct Job : Task {
 struct StageWork {
   std::function<ReadConfig(Tree)> read;  // throws Failure(config)
   std::function<std::vector<Summary>()> work;
+  std::function<std::vector<std::string>()> side_files;  // names that the config asks for
 };
 int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own);
 
 template <class Config>
 int run_stage(int argc, char** argv, const std::string& name,
-              std::vector<Summary> (*work)(const Job<Config>&)) {
+              std::vector<Summary> (*work)(const Job<Config>&),
+              std::vector<std::string> (*side_files)(const Config&) = nullptr) {
   Job<Config> job;
-  const auto read = [&job](Tree tree) {
+  StageWork own;
+  own.read = [&job](Tree tree) {
     return read_stage_config(std::move(tree), job.config);
   };
-  return run_stage(argc, argv, name, job, {read, [&] {
-                                             return work(job);
-                                           }});
+  own.work = [&job, work] {
+    return work(job);
+  };
+  own.side_files = [&job, side_files] {
+    return side_files ? side_files(job.config) : std::vector<std::string>();
+  };
+  return run_stage(argc, argv, name, job, own);
 }
 
 }  // namespace langer

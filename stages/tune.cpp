@@ -184,8 +184,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
-  Pictures pictures(std::filesystem::path(job.output).parent_path().string(),
-                    job.config.figure_style);
+  Pictures pictures(job.beside(""), job.config.figure_style);
   std::string choice = "quantity,wanted_percent,level,error_percent,cpu_s,memory_MB\n";
   std::vector<Summary> summary;
   for (const SweepColumn& column : values.columns) {
@@ -216,9 +215,12 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   return summary;
 }
 
+std::vector<std::string> side_files(const TuneConfig&) { return {"cheapest.csv", "levels.csv"}; }
+
 }  // namespace
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  return langer::run_stage<langer::TuneConfig>(argc, argv, "tune", langer::tune);
+  return langer::run_stage<langer::TuneConfig>(argc, argv, "tune", langer::tune,
+                                               langer::side_files);
 }

@@ -11,6 +11,7 @@
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/ports.hpp"
 #include "results/store/lock.hpp"
+#include "results/store/side_files.hpp"
 
 namespace langer {
 
@@ -134,6 +135,15 @@ bool take_ranks(const std::string& program, bool quiet) {
   return true;
 }
 
+void choose_side_folder(Task& task, const StageSpec& spec, const std::vector<std::string>& names) {
+  const SideFolder folder = side_folder(task.output, spec.name, names);
+  task.side_folder = folder.path;
+  if (!folder.owner.empty()) {
+    task.say("tables, cards and figures go to {}/: the plain names belong to {}", folder.path,
+             folder.owner);
+  }
+}
+
 int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept,
         const std::string& command, const StageWork& own) {
   need_own_files(given, task);
@@ -148,7 +158,13 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kep
     return static_cast<int>(Exit::ok);
   }
   std::optional<OutputLock> lock;
-  if (!task.dry_run) first([&] { lock.emplace(task.output, task.identity.command); });
+  task.side_folder = std::filesystem::path(task.output).parent_path().string();
+  if (!task.dry_run) {
+    first([&] {
+      lock.emplace(task.output, task.identity.command);
+      choose_side_folder(task, spec, own.side_files());
+    });
+  }
   const std::vector<Summary> results = own.work();
   if (task.verbose)
     say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(),

@@ -11,7 +11,10 @@
 #include "example.hpp"
 #include "refusal.hpp"
 #include "results/store/curves_file.hpp"
+#include "results/store/journal.hpp"
+#include "results/store/lock.hpp"
 #include "results/store/mesh_file.hpp"
+#include "results/store/side_files.hpp"
 
 using namespace langer;
 using example::holds;
@@ -131,4 +134,93 @@ TEST_CASE("a cell of a CSV table stands between quotes where it has to") {
   CHECK(csv_cell("# no comment") == "\"# no comment\"");
   CHECK(csv_cell(" blank") == "\" blank\"");
   CHECK(csv({{"a, b", "-", {1}}, {"c", "N, mm", {2}}}) == "\"a, b\",\"c_N,_mm\"\n1,2\n");
+}
+
+TEST_CASE("a link called <output>.part, .steps or .lock is refused and its target stays") {
+  const std::string folder = example::folder("part_links");
+  const std::string victim = folder + "/victim.txt";
+  const std::string output = folder + "/mesh.h5";
+  write_bytes(victim, "my thesis\n");
+  const auto with_link = [&](const std::string& name, const std::function<void()>& act) {
+    CAPTURE(name);
+    std::filesystem::create_symlink("victim.txt", folder + name);
+    CHECK(holds(refusal(act), "is a link to victim.txt"));
+    CHECK(example::bytes(victim) == "my thesis\n");
+    std::filesystem::remove(folder + name);
+  };
+  with_link("/curves.csv.part", [&] { write_text_file(folder + "/curves.csv", "a\n"); });
+  with_link("/Makefile.part", [&] { write_text_file_soon(folder + "/Makefile", "all:\n"); });
+  with_link("/figure.pdf.part", [&] { replace_file(folder + "/figure.pdf", "%PDF"); });
+  with_link("/mesh.h5.part", [&] { write_mesh(output, example::bar(), example::identity()); });
+  with_link("/mesh.h5.steps", [&] { Journal journal(output + ".steps"); });
+  with_link("/mesh.h5.lock", [&] { OutputLock lock(output, "langer-mesh"); });
+
+  // a second name of the file instead of a link: the file under the other name stays
+  for (const std::string name : {"/curves.csv", "/mesh.h5"}) {
+    std::filesystem::create_hard_link(victim, folder + name + ".part");
+  }
+  write_text_file(folder + "/curves.csv", "a\n");
+  write_mesh(output, example::bar(), example::identity());
+  CHECK(example::bytes(victim) == "my thesis\n");
+  CHECK(example::bytes(folder + "/curves.csv") == "a\n");
+  CHECK(read_mesh(output).mesh.n_cells() == example::bar().n_cells());
+}
+
+TEST_CASE("a file that only has the name of a lock is not removed") {
+  const std::string folder = example::folder("foreign_lock");
+  write_bytes(folder + "/mesh.h5.lock", "combination of the safe: 1234\n");
+  CHECK(holds(refusal([&] { OutputLock lock(folder + "/mesh.h5", "langer-mesh"); }),
+              "is no lock of langer"));
+  CHECK(example::bytes(folder + "/mesh.h5.lock") == "combination of the safe: 1234\n");
+}
+
+TEST_CASE("side files of a second output in a folder have a folder of their own") {
+  const std::string folder = example::folder("side_files");
+  const std::vector<std::string> names{"parameters.csv", "fit.csv"};
+  const auto made = [&](const std::string& name, const std::string& stage) {
+    Identity identity = example::identity();
+    identity.stage = stage;
+    write_mesh(folder + name, example::bar(), identity);
+  };
+  CHECK(side_folder(folder + "/neo.h5", "fit", names).path == folder);
+  write_bytes(folder + "/parameters.csv", "parameter,true\n");  // a run that was killed here
+  CHECK(side_folder(folder + "/neo.h5", "fit", names).path == folder);
+  made("/solution.h5", "solve");  // another stage has files of other names
+  CHECK(side_folder(folder + "/neo.h5", "fit", names).path == folder);
+  made("/neo.h5", "fit");
+
+  SideFolder second = side_folder(folder + "/yeoh.h5", "fit", names);
+  CHECK(second.path == folder + "/yeoh_files");
+  CHECK(second.owner == "neo.h5");
+  CHECK(std::filesystem::is_directory(second.path));
+  CHECK(side_folder(folder + "/curves.h5", "fit", {}).path == folder);  // none are asked for
+  CHECK(side_folder(folder + "/curves.h5", "fit", {"map.csv"}).path == folder);  // a free name
+
+  // Both again, in any order: each keeps its place.
+  made("/yeoh.h5", "fit");
+  for (int turn = 0; turn < 2; ++turn) {
+    CHECK(side_folder(folder + "/neo.h5", "fit", names).path == folder);
+    CHECK(side_folder(folder + "/yeoh.h5", "fit", names).path == folder + "/yeoh_files");
+  }
+  // The first is made anew after its output was removed: the plain names are still its own.
+  std::filesystem::remove(folder + "/neo.h5");
+  CHECK(side_folder(folder + "/neo.h5", "fit", names).path == folder);
+}
+
+TEST_CASE("two runs of a stage in one folder at the same time have different places") {
+  const std::string folder = example::folder("side_files_running");
+  const OutputLock other(folder + "/neo.h5", "langer-fit neo.yaml -o neo.h5");
+  CHECK(side_folder(folder + "/yeoh.h5", "fit", {"fit.csv"}).path == folder + "/yeoh_files");
+  CHECK(side_folder(folder + "/sweep.h5", "gather", {"table.csv"}).path == folder);
+}
+
+TEST_CASE("a side file that is a link is refused before the work begins") {
+  const std::string folder = example::folder("side_links");
+  write_bytes(folder + "/victim.txt", "my thesis\n");
+  std::filesystem::create_symlink("victim.txt", folder + "/fit.csv");
+  CHECK(holds(refusal([&] { side_folder(folder + "/m.h5", "fit", {"fit.csv"}); }), "is a link to"));
+  std::filesystem::remove(folder + "/fit.csv");
+  std::filesystem::create_directory(folder + "/elsewhere");
+  std::filesystem::create_directory_symlink("elsewhere", folder + "/m_files");
+  CHECK(holds(refusal([&] { side_folder(folder + "/m.h5", "fit", {"fit.csv"}); }), "is a link to"));
 }
