@@ -9,7 +9,7 @@ endmacro()
 
 # one page of help, with units, an example and the exit codes
 file(GLOB programs RELATIVE ${BIN} ${BIN}/langer-* ${BIN}/langer)
-list(FILTER programs EXCLUDE REGEX "(bench|soak|compare-h5)$")
+list(FILTER programs EXCLUDE REGEX "(bench|soak|compare-h5|hostile-h5)$")
 foreach(program ${programs})
   run(0 ${BIN}/${program} --help)
   expect_said("Example:\n  ")

@@ -1,0 +1,22 @@
+# Hostile folders: files that somebody sent, made to run a command, to hang a program, or to have it write where it should not.
+# Every program runs under strace. It may start no other program, may open no file for writing outside the folder of its output, and ends
+# with 2 or 3 within 10 s.
+include(${ROOT}/tests/support/run.cmake)
+foreach(tool python3 strace make)
+  find_program(found_${tool} ${tool})
+  if(NOT found_${tool})
+    message("skipped: no ${tool} (Debian: apt install ${tool})")
+    return()
+  endif()
+endforeach()
+execute_process(COMMAND ${found_strace} -f -qq -o /dev/null true RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+if(NOT code EQUAL 0)
+  message("skipped: strace may not trace here (ptrace is forbidden in this container)")
+  return()
+endif()
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+set(folder ${WORK})
+run(0 ${CMAKE_COMMAND} -E env SANITIZED=${SANITIZED} ${found_python3} ${ROOT}/tests/support/hostile.py ${BIN} ${WORK})
+message("${said}")
+expect_said("hostile folders")
