@@ -103,8 +103,8 @@ TEST_CASE(
         "stress: cauchy for the column \"Force (N)\"; expected the measure of a force");
   holds(refusal("Extension,Force (N)\n0,0\n10,10\n", sized()),
         "strain_unit: no unit for the column \"Extension\"");
-  holds(refusal("Extension (in),Force (lbf)\n0,0\n10,10\n", sized()),
-        "columns: found Extension (in), Force (lbf)");
+  holds(refusal("Extension (ft),Force (dyn)\n0,0\n10,10\n", sized()),
+        "columns: found Extension (ft), Force (dyn)");
   // each axis of a biaxial test by its own width and length
   TestFormat b = sized(10, 2, 40);
   b.like.kind = TestKind::biaxial, b.width_z = 20, b.gauge_length_z = 80;

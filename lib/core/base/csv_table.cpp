@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/measured_units.hpp"
 
 namespace langer {
 
@@ -86,7 +87,45 @@ struct CsvLine {
   bool comment = false;
 };
 
+// Errors that spreadsheets put into cells, in English and German. A row that begins with one is no
+// comment although it begins with #.
+const std::set<std::string>& spreadsheet_errors() {
+  static const std::set<std::string> known{"#N/A",  "#NV",   "#DIV/0!", "#VALUE!", "#WERT!",
+                                           "#REF!", "#NUM!", "#ZAHL!",  "#NAME?",  "#NULL!"};
+  return known;
+}
+
+bool is_comment(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(blanks);
+  if (line[first] != '#') {
+    return false;
+  }
+  const std::size_t end = std::min(line.find_first_of(",;\t ", first), line.size());
+  return spreadsheet_errors().count(line.substr(first, end - first)) == 0;
+}
+
+// Files that are no text at all, with what their owner has to do.
+void refuse_workbook(const std::string& text, const std::string& name) {
+  std::string found;
+  if (text.starts_with("PK\x03\x04")) {
+    found = "found a workbook (.xlsx, .ods) or another zip archive";
+  } else if (text.starts_with("\xD0\xCF\x11\xE0")) {
+    found = "found a workbook of old Excel (.xls)";
+  } else if (text.starts_with("\x89HDF\r\n")) {
+    found = "found an HDF5 file";
+  } else {
+    return;
+  }
+  throw Failure(Exit::input, {{name, 1, 1},
+                              "",
+                              std::move(found),
+                              "a table as text (CSV)",
+                              "open it and save the sheet with the curve as \"CSV UTF-8\", or: "
+                              "libreoffice --headless --convert-to csv FILE"});
+}
+
 std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) {
+  refuse_workbook(text, name);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw Failure(Exit::input, {{name, 1, 1},
                                 "",
@@ -104,7 +143,7 @@ std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) 
     const std::size_t first = line.find_first_not_of(blanks);
     if (first == std::string::npos || line.find_first_not_of(",;\" \t") == std::string::npos)
       continue;
-    lines.push_back({number, line, line[first] == '#'});
+    lines.push_back({number, line, is_comment(line)});
   }
   return lines;
 }
@@ -287,51 +326,111 @@ std::optional<double> CsvTable::number(const CsvCell& cell) const {
   return csv_number(text);
 }
 
+bool is_blank_cell(const std::string& text) {
+  static const std::set<std::string> known{"",    "NaN", "nan", "NAN",  "NA",
+                                           "N/A", "n/a", "na",  "null", "NULL"};
+  return known.count(text) > 0 || spreadsheet_errors().count(text) > 0;
+}
+
 bool is_unit(const std::string& text) {
-  static const std::set<std::string> known{"-",
-                                           "1",
-                                           "%",
-                                           "percent",
-                                           "Pa",
-                                           "kPa",
-                                           "MPa",
-                                           "GPa",
-                                           "N",
-                                           "mN",
-                                           "kN",
-                                           "m",
-                                           "mm",
-                                           "cm",
-                                           "um",
-                                           "\xC2\xB5m",
-                                           "\xB5m",
-                                           "s",
-                                           "sec",
-                                           "min",
-                                           "h",
-                                           "Hz",
-                                           "mm/mm",
-                                           "m/m",
-                                           "mm/s",
-                                           "mm/min",
-                                           "%/s",
-                                           "1/s",
-                                           "N/mm2",
-                                           "N/mm^2",
-                                           "N/mm\xC2\xB2",
-                                           "N/mm\xB2",
-                                           "deg",
-                                           "\xC2\xB0",
-                                           "\xC2\xB0"
-                                           "C",
-                                           "J",
-                                           "mJ",
-                                           "N/mm"};
+  // units of columns that are not read, which may stand in a line of units all the same
+  static const std::set<std::string> others{"Hz",
+                                            "mm/s",
+                                            "mm/min",
+                                            "%/s",
+                                            "1/s",
+                                            "%/min",
+                                            "deg",
+                                            "J",
+                                            "mJ",
+                                            "\xC2\xB0",
+                                            "K",
+                                            "V",
+                                            "mV",
+                                            "\xC2\xB0"
+                                            "C",
+                                            "N/mm",
+                                            "N/m",
+                                            "in/min",
+                                            "in/s",
+                                            "mm2",
+                                            "mm^2"};
   std::string inner = trimmed(text);
-  if (inner.size() > 2 && ((inner.front() == '(' && inner.back() == ')') ||
-                           (inner.front() == '[' && inner.back() == ']')))
+  const bool in_brackets = inner.size() > 2 && ((inner.front() == '(' && inner.back() == ')') ||
+                                                (inner.front() == '[' && inner.back() == ']'));
+  if (in_brackets) {
     inner = trimmed(inner.substr(1, inner.size() - 2));
-  return known.count(inner) > 0;
+  }
+  return others.count(inner) > 0 || measured_unit(inner).has_value();
+}
+
+// Where the line of names is repeated: the numbers of these lines among those that count.
+std::vector<std::size_t> repeated_names(const std::vector<CsvLine>& lines, const Beginning& begin) {
+  std::vector<std::size_t> found;
+  const auto same = [](const CsvCell& a, const CsvCell& b) {
+    return a.text == b.text;
+  };
+  for (std::size_t i = begin.next; i < lines.size(); ++i) {
+    if (lines[i].comment) {
+      continue;
+    }
+    CsvRow row = row_of(lines[i], begin.separator);
+    drop_empty_end(row.cells, 1);
+    CsvRow names = begin.header;
+    drop_empty_end(names.cells, 1);
+    if (std::equal(row.cells.begin(), row.cells.end(), names.cells.begin(), names.cells.end(),
+                   same)) {
+      found.push_back(i);
+    }
+  }
+  return found;
+}
+
+bool has_numbers(const CsvRow& row) {
+  return std::any_of(row.cells.begin(), row.cells.end(),
+                     [](const CsvCell& cell) { return digits_of(cell.text).number; });
+}
+
+bool begins_with_text(const CsvRow& row) {
+  const std::string& first = row.cells.front().text;
+  return !digits_of(first).number && !is_blank_cell(first);
+}
+
+// Whether the rows of a table begin with a text, such as the name of a protocol.
+bool rows_begin_with_text(const std::vector<CsvLine>& lines, const Beginning& begin) {
+  for (std::size_t i = begin.next; i < lines.size(); ++i) {
+    const CsvRow row = row_of(lines[i], begin.separator);
+    if (!lines[i].comment && has_numbers(row)) {
+      return begins_with_text(row);
+    }
+  }
+  return false;
+}
+
+// Whether a line belongs to what a machine writes between two blocks: it begins with a text and
+// cannot be a row of the table.
+bool is_between_blocks(const CsvLine& line, const Beginning& begin, bool text_rows) {
+  CsvRow row = row_of(line, begin.separator);
+  drop_empty_end(row.cells, 1);
+  if (!begins_with_text(row)) {
+    return false;
+  }
+  const bool other_size = row.cells.size() != begin.header.cells.size();
+  return !has_numbers(row) || (other_size && !text_rows);
+}
+
+// "Specimen 2" of the line above a line of names; cells of that line are joined.
+std::string label_above(const std::vector<CsvLine>& lines, std::size_t names, char separator) {
+  if (names == 0) {
+    return "";
+  }
+  std::string label;
+  for (const CsvCell& cell : row_of(lines[names - 1], separator).cells) {
+    if (!cell.text.empty()) {
+      label += (label.empty() ? "" : " ") + cell.text;
+    }
+  }
+  return label;
 }
 
 CsvTable parse_table(const std::string& text, const std::string& shown_name,
@@ -343,27 +442,62 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
   std::string separators = "\t;, ";
   if (const auto told = told_separator(lines)) separators = *told, lines.erase(lines.begin());
   std::optional<Beginning> known = known_beginning(lines, separators, reading);
+  const bool known_header = known.has_value();
   const Beginning begin =
       known ? std::move(*known) : first_beginning(lines, separators, shown_name);
   table.header = begin.header;
   drop_empty_end(table.header.cells, 1);
+
+  // Lines between the blocks are marked, so that they are not read as rows.
+  const std::vector<std::size_t> repeated =
+      known_header ? repeated_names(lines, begin) : std::vector<std::size_t>();
+  const bool text_rows = !repeated.empty() && rows_begin_with_text(lines, begin);
+  std::set<std::size_t> between;
+  for (const std::size_t names : repeated) {
+    between.insert(names);
+    for (std::size_t i = names;
+         i-- > begin.next && is_between_blocks(lines[i], begin, text_rows);) {
+      between.insert(i);
+    }
+  }
+  if (!repeated.empty()) {
+    table.blocks = {label_above(lines, begin.next - 1, begin.separator)};
+  }
+
   std::vector<Error> errors;
+  bool units_may_follow = true;
   for (std::size_t i = begin.next; i < lines.size() && errors.size() < most_errors; ++i) {
-    if (lines[i].comment) continue;
+    if (std::binary_search(repeated.begin(), repeated.end(), i)) {
+      table.blocks.push_back(label_above(lines, i, begin.separator));
+      units_may_follow = true;
+    }
+    if (lines[i].comment || between.count(i) > 0) continue;
     CsvRow row = row_of(lines[i], begin.separator);
+    row.block = table.blocks.size() - 1;
     drop_empty_end(row.cells, table.header.cells.size());
-    if (row.cells.size() != table.header.cells.size())
+    if (row.cells.size() != table.header.cells.size()) {
       errors.push_back(
           {{shown_name, row.line, 1},
            "",
            fmt::format("found {} cells", row.cells.size()),
            fmt::format("{}, as in the line that names the columns", table.header.cells.size()),
            hint_for_cells(table, row.cells.size(), begin.separator)});
-    else if (table.rows.empty() && table.units.empty() && row.cells.size() > 1 &&
-             is_line_of_units(row))
-      for (const CsvCell& cell : row.cells) table.units.push_back(cell.text);
-    else
+    } else if (units_may_follow && row.cells.size() > 1 && is_line_of_units(row)) {
+      std::vector<std::string> units;
+      for (const CsvCell& cell : row.cells) units.push_back(cell.text);
+      if (row.block > 0 && units != table.units) {
+        errors.push_back({{shown_name, row.line, 1},
+                          "",
+                          "found units that differ from those of the first block",
+                          "one line of units for all blocks",
+                          "a file for each block"});
+      }
+      table.units = units;
+      units_may_follow = false;
+    } else {
       table.rows.push_back(std::move(row));
+      units_may_follow = false;
+    }
   }
   if (!errors.empty()) throw Failure(Exit::input, errors);
   table.decimal = reading.decimal ? *reading.decimal : decimal_sign(table);

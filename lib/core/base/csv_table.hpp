@@ -5,6 +5,9 @@
 //               line, or, where that holds numbers only, the comment right above it, as numpy.savetxt writes it
 //   units       a line of nothing but units right below the names
 //   decimals    points or commas, not both in one file; commas that may as well part thousands (1,234) are asked about
+//   blocks      where the line of names is repeated, a block of rows of its own begins: one specimen after another
+// Workbooks (.xlsx, .xls) are recognised by their first bytes and refused: a sheet has to be saved
+// as CSV.
 #pragma once
 
 #include <array>
@@ -26,6 +29,7 @@ struct CsvCell {
 struct CsvRow {
   int line = 0;
   std::vector<CsvCell> cells;
+  std::size_t block = 0;  // of CsvTable::blocks
 };
 
 struct CsvTable {
@@ -33,6 +37,8 @@ struct CsvTable {
   CsvRow header;
   std::vector<std::string> units;  // by column, from a line below the names; empty: there is none
   std::vector<CsvRow> rows;
+  // what stands above each of the repeated lines of names, such as "Specimen 2"; one: no blocks
+  std::vector<std::string> blocks{""};
   DecimalSign decimal = DecimalSign::point;
   std::optional<double> number(const CsvCell& cell) const;  // the whole cell as a number
 };
@@ -46,6 +52,8 @@ struct CsvReading {
 std::vector<CsvCell> csv_cells(const std::string& line,
                                char separator = ',');       // ' ': any number of blanks
 std::optional<double> csv_number(const std::string& text);  // the whole text as a number
+// A cell without a value, as spreadsheets and scripts write it: empty, #N/A, NaN, NA, null.
+bool is_blank_cell(const std::string& text);
 bool is_unit(
     const std::string& text);  // "MPa", "[mm]", "(N/mm^2)", "%", "-": may stand below a name
 
