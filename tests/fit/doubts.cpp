@@ -60,6 +60,25 @@ TEST_CASE("an offset at rest and cycles are told, scatter is not") {
   CHECK(all({t}) == "");
 }
 
+TEST_CASE("one rising column from compression to tension is no unloading, in either direction") {
+  const auto curve = [](const std::vector<double>& strains) {
+    Test t;
+    t.name = "t";
+    for (const double e : strains) {
+      t.first.push_back(1 + e);
+      t.stress_x.push_back(0.2 * e);
+    }
+    return t;
+  };
+  CHECK(all({curve({-0.1, -0.05, 0, 0.05, 0.1})}) == "");
+  CHECK(all({curve({0.1, 0.05, 0, -0.05, -0.1})}) == "");
+  CHECK(all({curve({0, -0.05, -0.1})}) == "");
+  CHECK(all({curve({0.1, 0.099, 0.2, 0.199, 0.3})}) == "");
+  CHECK(holds(all({curve({0, 0.1, 0.2, 0.1, 0})}), "goes back from 0.2 to 0.1 at point 4"));
+  CHECK(holds(all({curve({0, -0.1, -0.2, -0.1, 0})}), "goes back from -0.2 to -0.1 at point 4"));
+  CHECK(holds(all({curve({-0.1, 0, 0.1, 0, -0.1})}), "goes back from 0.1 to 0 at point 4"));
+}
+
 TEST_CASE("measured data of rubber and skin are not doubted") {
   const std::string folder = SOURCE_DIR "/../shared/data/";
   if (!std::filesystem::exists(folder + "treloar1944.csv")) {

@@ -62,16 +62,27 @@ void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) 
   // a protocol of several branches and a history go back on purpose, in another uniaxial test it is
   // the way back or a cycle
   if (test.kind == TestKind::biaxial || !test.time.empty()) return;
-  double farthest = 0;
+  // A curve from compression to tension only rises: what counts is a change of direction. The first
+  // turn that is more than noise is named.
+  const double noise = back * r.strain;
+  double highest = first;
+  double lowest = first;
+  bool rose = false;
+  bool fell = false;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    const double e = std::abs(strain_of(test, test.first[i]));
-    if (e < farthest - back * r.strain) {
+    const double e = strain_of(test, test.first[i]);
+    const bool falls = rose && e < highest - noise;
+    const bool rises = fell && e > lowest + noise;
+    if (falls || rises) {
       all.push_back(fmt::format(
-          "test {}: the strain goes back from {:.3g} to {:.3g} at point {}: unloading or cycles, fitted as if they were loading",
-          test.name, farthest, e, i + 1));
+          "test {}: the strain goes back from {:.3g} to {:.3g} at point {}: unloading or cycles, fitted as if they were loading; until: peak, branch: loading, cycle: last or skip_cycles choose a part",
+          test.name, falls ? highest : lowest, e, i + 1));
       return;
     }
-    farthest = std::max(farthest, e);
+    rose = rose || e > lowest + noise;
+    fell = fell || e < highest - noise;
+    highest = std::max(highest, e);
+    lowest = std::min(lowest, e);
   }
 }
 

@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/measured_units.hpp"
+#include "identification/fit/test_cycles.hpp"
 #include "identification/fit/test_range.hpp"
+#include "identification/fit/test_signs.hpp"
 
 namespace langer {
 
 namespace {
-
-constexpr double per_unit_of_stress[] = {1, 1e-3, 1e-6, 1, 1e-3, 1e3};  // MPa or N
-constexpr double per_unit_of_strain[] = {1, 0.01, 1, 1e-3};             // 1 or mm
 
 template <class E>
 std::string word(E e) {
@@ -27,11 +29,14 @@ struct AxisColumns {
   std::size_t strain = 0, stress = 0;
   bool has_strain = false, has_stress = false;
   StrainMeasure measure = StrainMeasure::engineering;
-  double strain_factor = 1, stress_factor = 1;  // to a plain strain or stretch, and to MPa
+  double strain_factor = 1;  // to a plain strain or stretch
+  double stress_factor = 1;  // to MPa
 };
 
 // The reading of one table: errors are gathered and thrown together.
 struct Reading {
+  Reading(const CsvTable& read, const TestFormat& wanted) : table(read), format(wanted) {}
+
   const CsvTable& table;
   TestFormat format;
   std::vector<Error> errors;
@@ -69,10 +74,34 @@ struct Reading {
     return all;
   }
 
+  // By its name, or by its place: "column 3". Of two columns of one name the first is read.
   std::optional<std::size_t> column(const std::string& wanted, const char* key) {
-    for (std::size_t i = 0; i < table.header.cells.size(); ++i)
-      if (name(i) == wanted) return i;
-    say(table.header.line, 1, key, "no column \"" + wanted + "\"", "one of " + all_names());
+    std::optional<std::size_t> found;
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
+      if (name(i) != wanted) continue;
+      if (!found) found = i;
+      ++same;
+    }
+    if (same > 1) {
+      note(*found, fmt::format("{} columns are called \"{}\": column {} is read; {}: \"column 3\" "
+                               "names one by its place",
+                               same, wanted, *found + 1, key));
+    }
+    if (!found) found = column_at(wanted);
+    if (!found) {
+      say(table.header.line, 1, key, "no column \"" + wanted + "\"", "one of " + all_names());
+    }
+    return found;
+  }
+
+  std::optional<std::size_t> column_at(const std::string& wanted) const {
+    const std::string word = "column ";
+    if (!wanted.starts_with(word)) return std::nullopt;
+    const auto place = csv_number(wanted.substr(word.size()));
+    for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
+      if (place && *place == static_cast<double>(i + 1)) return i;
+    }
     return std::nullopt;
   }
 
@@ -81,18 +110,19 @@ struct Reading {
     constexpr const char* expected =
         "one column of strain, strain_percent or stretch, and one of cauchy_stress_MPa or nominal_stress_MPa (or kPa, Pa), or of a "
         "force in N and an elongation in mm";
+    constexpr const char* cure =
+        "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}; of "
+        "several of one name \"column 3\" names one by its place";
     for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
       const ColumnMeaning m = meaning(i);
       if (m.of == ColumnMeaning::Of::unknown) continue;
       const bool deformation = m.of == ColumnMeaning::Of::deformation;
       std::string& slot = deformation ? format.strain_x : format.stress_x;
       if (!slot.empty())
-        say_of_column(
-            i, "columns",
-            fmt::format("a second column of {}: \"{}\"", deformation ? "deformation" : "stress",
-                        name(i)),
-            expected,
-            "name those to take in the item of `data`: columns: {strain_x: \"...\", stress_x: \"...\"}");
+        say_of_column(i, "columns",
+                      fmt::format("a second column of {}: \"{}\"",
+                                  deformation ? "deformation" : "stress", name(i)),
+                      expected, cure);
       slot = name(i);
     }
     if (errors.empty() && (format.strain_x.empty() || format.stress_x.empty()))
@@ -119,10 +149,30 @@ struct Reading {
     return 1;
   }
 
+  // The heading of a column and the use that the config makes of it have to agree.
+  void check_quantity(std::size_t column, const ColumnMeaning& m, ColumnMeaning::Of used_as) {
+    const bool as_stress = used_as == ColumnMeaning::Of::stress;
+    const bool other_noun = m.noun != ColumnMeaning::Of::unknown && m.noun != used_as;
+    bool other_unit = m.stress_unit.has_value();
+    if (as_stress) {
+      other_unit = m.strain_unit && is_length(*m.strain_unit);
+    }
+    if (!other_noun && !other_unit) {
+      return;
+    }
+    say_of_column(column, as_stress ? "columns.stress_x" : "columns.strain_x",
+                  "the column \"" + name(column) + "\"",
+                  as_stress ? "a column of stress or force" : "a column of deformation",
+                  "the columns of strain and stress may have been exchanged");
+  }
+
   void add_stress(AxisColumns& axis, std::size_t column, const std::optional<double>& width,
                   const char* width_key) {
-    axis.has_stress = true, axis.stress = column;
+    axis.has_stress = true;
+    axis.stress = column;
     const ColumnMeaning m = meaning(column);
+    check_quantity(column, m, ColumnMeaning::Of::stress);
+    says_compression = says_compression || m.compression;
     std::optional<StressUnit> unit =
         agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
     if (!unit && format.normalised) unit = StressUnit::MPa;  // any serves
@@ -133,8 +183,8 @@ struct Reading {
               ? "no unit for the column \"" + name(column) + "\""
               : fmt::format("the unit \"{}\" of the column \"{}\"", m.foreign_unit, name(column)),
           "stress_unit, or a name that ends in _MPa, _kPa or _Pa",
-          "of a force: N, mN or kN, with width and thickness");
-    axis.stress_factor = per_unit_of_stress[static_cast<std::size_t>(*unit)];
+          "of a force: N, mN, kN, gf, kgf or lbf, with width and thickness");
+    axis.stress_factor = format.stress_sign.value_or(1) * factor(*unit);
     std::optional<StressMeasure> told = m.stress;
     if (is_force(*unit) && format.normalised) {
       told = StressMeasure::nominal;
@@ -146,29 +196,51 @@ struct Reading {
       told = StressMeasure::nominal;
     }
     const auto measure =
-        agreed(format.stress, told, column, "stress",
+        agreed(stress_by_key, told, column, "stress",
                is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
     if (measure) {
+      check_one_measure(column, *measure);
       format.like.measure = *measure;
+    } else if (!m.stress_question.empty()) {
+      say_of_column(column, "stress",
+                    fmt::format("the column \"{}\", which {}", name(column), m.stress_question),
+                    "stress: cauchy, nominal (first Piola-Kirchhoff) or second_piola",
+                    "in the item of `data`");
     } else if (found_by_name) {
       say_of_column(
           column, "stress", "not told for the column \"" + name(column) + "\"",
           "stress: cauchy (true) or nominal (force over the area at rest)",
           "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
-    } else if (format.like.measure == StressMeasure::cauchy) {
+    } else if (!guessed_stress && format.like.measure == StressMeasure::cauchy) {
       note(
           column,
           fmt::format(
               "the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force over the area at rest)",
               name(column)));
-      format.stress = StressMeasure::cauchy;  // once
+      guessed_stress = true;
     }
+  }
+
+  // Both axes of a test are in one measure of stress.
+  void check_one_measure(std::size_t column, StressMeasure measure) {
+    const bool differs = named_stress && *named_stress != measure;
+    if (differs || (guessed_stress && measure != StressMeasure::cauchy)) {
+      say_of_column(column, "stress",
+                    fmt::format("{} for the column \"{}\", unlike the other axis", word(measure),
+                                name(column)),
+                    "one measure for both axes",
+                    "stress: " + word(measure) + " states it for both");
+    }
+    named_stress = measure;
   }
 
   void add_strain(AxisColumns& axis, std::size_t column, const std::optional<double>& length,
                   const char* length_key) {
-    axis.has_strain = true, axis.strain = column;
+    axis.has_strain = true;
+    axis.strain = column;
     const ColumnMeaning m = meaning(column);
+    check_quantity(column, m, ColumnMeaning::Of::deformation);
+    says_compression = says_compression || m.compression;
     const bool slides = format.like.kind == TestKind::simple_shear;
     std::optional<StrainUnit> unit =
         agreed(format.strain_unit, m.strain_unit, column, "strain_unit", "unit");
@@ -178,8 +250,7 @@ struct Reading {
                                            : fmt::format("the unit \"{}\" of the column \"{}\"",
                                                          m.foreign_unit, name(column)),
                     "strain_unit: fraction, percent, mm or um, or a name that ends in it");
-    axis.strain_factor =
-        per_unit_of_strain[static_cast<std::size_t>(unit.value_or(StrainUnit::fraction))];
+    axis.strain_factor = factor(unit.value_or(StrainUnit::fraction));
     if (unit && is_length(*unit))
       axis.strain_factor /=
           size(length, column, length_key, "the length at rest between grips or marks in mm");
@@ -188,9 +259,26 @@ struct Reading {
     if (unit && is_length(*unit) && measure && *measure > StrainMeasure::stretch)
       say_of_column(column, "strain", word(*measure) + " for lengths",
                     "engineering (an elongation) or stretch (a length)");
-    axis.measure = measure  ? *measure
-                   : slides ? StrainMeasure::engineering
-                            : measure_by_values(axis, column, m);
+    if (!measure && !m.strain_question.empty() && !slides) {
+      say_of_column(column, "strain",
+                    fmt::format("the column \"{}\", which {}", name(column), m.strain_question),
+                    "strain: engineering, stretch, log or green_lagrange", "in the item of `data`");
+      return;
+    }
+    const double sign = format.strain_sign.value_or(1);
+    if (measure) {
+      axis.measure = *measure;
+    } else if (!slides) {
+      axis.measure = measure_by_values(axis, column, m);
+    }
+    // a stretch has no sign
+    if (axis.measure != StrainMeasure::stretch || slides) {
+      axis.strain_factor *= sign;
+    } else if (strain_sign_alone && sign < 0) {
+      say_of_column(column, "strain_sign",
+                    fmt::format("-1 for the stretches of the column \"{}\"", name(column)),
+                    "a strain or an elongation", "a stretch below 1 is compression in any case");
+    }
   }
 
   // nobody told: the first value does, or is asked about
@@ -204,7 +292,11 @@ struct Reading {
     const double first = axis.strain_factor * *table.number(row->cells[column]);
     const bool documented = name(column) == "strain" || name(column) == "strain_percent";
     constexpr double near = 0.1;
-    if (std::abs(first - 1) <= near) {
+    if (m.position && std::abs(first) > 0.01) {
+      say(row->line, row->cells[column].column, "columns.strain_x",
+          fmt::format("the position \"{}\", which does not start at 0", name(column)),
+          "an elongation", "subtract its first value; strain: stretch if it is the length itself");
+    } else if (std::abs(first - 1) <= near) {
       if (!documented) {
         note(column, fmt::format("\"{}\" starts at {:g}: taken as stretch; say strain: stretch",
                                  name(column), first));
@@ -236,12 +328,27 @@ struct Reading {
     const bool decimals = !x &&
                           cell.text.find_first_not_of("+-0123456789.,eE") == std::string::npos &&
                           cell.text.find_first_of(".,") != std::string::npos;
+    // one message for a row without values
+    if (is_blank_cell(cell.text) && line_of_blank == row.line) return 0;
+    if (is_blank_cell(cell.text)) line_of_blank = row.line;
+    std::string hint;
+    if (decimals) {
+      hint = fmt::format("decimal {}s are read here, without thousands separators",
+                         word(table.decimal));
+    } else if (is_blank_cell(cell.text)) {
+      hint = "cells without a value may stand below the last point of a test, not between points";
+    }
     say(row.line, cell.column, "", cell.text.empty() ? "found nothing" : "found " + cell.text,
-        "a finite number",
-        decimals ? fmt::format("decimal {}s are read here, without thousands separators",
-                               word(table.decimal))
-                 : "");
+        "a finite number", hint);
     return 0;
+  }
+
+  // The stretch of the other axis, which follows from the row by the ratio.
+  double stretch_above_0(const CsvRow& row, const AxisColumns& axis, double stretch) {
+    if (stretch > 0 && std::isfinite(stretch)) return stretch;
+    say(row.line, row.cells[axis.strain].column, "ratio",
+        fmt::format("found the stretch {} along the other axis", stretch), "a stretch > 0");
+    return 1;
   }
 
   double stretch(const CsvRow& row, const AxisColumns& axis) {
@@ -254,22 +361,68 @@ struct Reading {
                                                                      : std::exp(e);
     if (errors.size() > before) return 1;
     if (l > 0 && std::isfinite(l)) return l;
+    // where one stretch is impossible those behind it are so for the same reason
+    if (found_bad_stretch) return 1;
+    found_bad_stretch = true;
+    const bool may_be_turned = axis.measure != StrainMeasure::stretch && !format.strain_sign;
     say(row.line, row.cells[axis.strain].column, "", fmt::format("found the stretch {}", l),
-        "a stretch > 0");
+        "a stretch > 0",
+        may_be_turned ? "sign: -1 in the item of `data` where pulling counts negative" : "");
     return 1;
   }
 
   bool chosen(const CsvRow& row) const {
+    if (block && row.block != *block) return false;
     return std::all_of(where.begin(), where.end(),
                        [&](const auto& w) { return row.cells[w.first].text == w.second; });
+  }
+
+  bool several_blocks() const { return table.blocks.size() > 1 && !block; }
+
+  void choose_block() {
+    if (format.block.empty()) return;
+    const auto found = std::find(table.blocks.begin(), table.blocks.end(), format.block);
+    if (found != table.blocks.end()) {
+      block = static_cast<std::size_t>(found - table.blocks.begin());
+      return;
+    }
+    std::string all;
+    for (const std::string& label : table.blocks) all += (all.empty() ? "" : ", ") + label;
+    say(table.header.line, 1, "block", "no block \"" + format.block + "\"",
+        table.blocks.size() > 1 ? "one of " + all
+                                : "a file in which the line of names is repeated");
   }
   bool is_empty(const CsvRow& row, const AxisColumns& axis) const {
     return row.cells[axis.strain].text.empty() && row.cells[axis.stress].text.empty();
   }
 
+  // The heading, the line of units or the key says the unit; none of them: seconds.
+  void add_time(std::size_t column) {
+    time_column = column;
+    const std::string below = column < table.units.size() ? table.units[column] : "";
+    const std::string text = time_unit_text(name(column), below);
+    const auto unit = measured_unit(text);
+    const bool is_time = unit && unit->quantity == Quantity::time;
+    if (format.time_unit) {
+      time_factor = factor(*format.time_unit);
+      if (is_time && unit->factor != time_factor) {
+        say_of_column(
+            column, "time_unit",
+            fmt::format("{} for the column \"{}\"", word(*format.time_unit), name(column)),
+            "the unit that the column's name carries");
+      }
+    } else if (is_time) {
+      time_factor = unit->factor;
+    } else if (!text.empty()) {
+      say_of_column(column, "time_unit",
+                    fmt::format("the unit \"{}\" of the column \"{}\"", text, name(column)),
+                    "a unit of time: s, ms, min or h", "time_unit: s in the item of `data`");
+    }
+  }
+
   // [s]; that of one row after another of a test does not go back
   double time(const CsvRow& row, const Test& test) {
-    const double t = number(row, *time_column);
+    const double t = time_factor * number(row, *time_column);
     if (!test.time.empty() && t < test.time.back())
       say(row.line, row.cells[*time_column].column, "columns.time",
           fmt::format("found {:g} s after {:g} s", t, test.time.back()),
@@ -278,17 +431,68 @@ struct Reading {
   }
 
   std::optional<std::size_t> time_column;
+  std::optional<std::size_t> block;  // the one that is read; none: all
+  double time_factor = 1;            // to s
   std::vector<std::pair<std::size_t, std::string>> where;
   bool found_by_name = false;
+  std::optional<StressMeasure> stress_by_key = format.stress;
+  std::optional<StressMeasure> named_stress;  // by the key or by a column
+  bool guessed_stress = false;
+  bool says_compression = false;  // a heading
+  int line_of_blank = 0;          // the last row that was refused for a cell without a value
+  bool found_bad_stretch = false;
+  bool strain_sign_alone = format.strain_sign && !format.stress_sign;
 };
 
-Test& test_named(std::vector<Test>& tests, const Test& like, const std::string& name) {
-  const auto found =
-      std::find_if(tests.begin(), tests.end(), [&](const Test& t) { return t.name == name; });
-  if (found != tests.end()) return *found;
-  tests.push_back(like);
-  tests.back().name = name;
-  return tests.back();
+// The rows of one test: those of one block, and of one text in the column `split`.
+struct RowGroup {
+  std::string name;
+  std::vector<const CsvRow*> rows;
+};
+
+// "Specimen 2" -> Specimen_2: names of tests become names of files and figures.
+std::string block_name(const CsvTable& table, std::size_t block) {
+  std::string name;
+  for (const char c : table.blocks[block]) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (plain) {
+      name += c;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (name.ends_with('_')) name.pop_back();
+  if (name.empty()) name = std::to_string(block + 1);
+  return name;
+}
+
+std::vector<RowGroup> groups_of_rows(const Reading& in, const std::optional<std::size_t>& split) {
+  std::vector<RowGroup> groups;
+  for (const CsvRow& row : in.table.rows) {
+    if (!in.chosen(row)) continue;
+    std::string name;
+    if (in.several_blocks()) name = block_name(in.table, row.block);
+    if (split) name += (name.empty() ? "" : "_") + row.cells[*split].text;
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const RowGroup& group) { return group.name == name; });
+    if (found != groups.end()) {
+      found->rows.push_back(&row);
+    } else {
+      groups.push_back({name, {&row}});
+    }
+  }
+  return groups;
+}
+
+// Without the rows at the end that hold no value in any of the columns.
+std::vector<const CsvRow*> without_blank_end(std::vector<const CsvRow*> rows,
+                                             const std::vector<std::size_t>& columns) {
+  const auto is_blank = [&](const CsvRow& row) {
+    return std::all_of(columns.begin(), columns.end(),
+                       [&](std::size_t c) { return is_blank_cell(row.cells[c].text); });
+  };
+  while (!rows.empty() && is_blank(*rows.back())) rows.pop_back();
+  return rows;
 }
 
 // The other axis of a test whose axes have grids of their own: the same specimen turned by 90
@@ -301,106 +505,217 @@ Test turned(const TestFormat& format, const std::string& name) {
   return t;
 }
 
-// others: of axes with grids of their own, the second ones
-void read_rows(Reading& in, const AxisColumns& x, const AxisColumns& z,
-               const std::optional<std::size_t>& split, bool own_grids, std::vector<Test>& tests,
-               std::vector<Test>& others) {
-  for (const CsvRow& row : in.table.rows) {
-    if (!in.chosen(row)) continue;
-    const std::string name = split ? row.cells[*split].text : "";
-    if (own_grids && !in.is_empty(row, z)) {
-      Test& other = test_named(others, turned(in.format, name), name);
-      const double l = in.stretch(row, z);
-      if (other.kind == TestKind::biaxial) other.first.push_back(1), other.second.push_back(l);
-      if (other.kind != TestKind::biaxial) other.first.push_back(l);
-      other.stress_x.push_back(z.stress_factor * in.number(row, z.stress));
+// Both axes at the same instants, or one axis alone. With `ratio` the deformation along z follows.
+Test read_axis(Reading& in, const AxisColumns& x, const AxisColumns& z, const RowGroup& group) {
+  std::vector<std::size_t> columns{x.strain, x.stress};
+  if (z.has_strain) columns.push_back(z.strain);
+  if (z.has_stress) columns.push_back(z.stress);
+
+  Test test = in.format.like;
+  test.name = group.name;
+  for (const CsvRow* row : without_blank_end(group.rows, columns)) {
+    if (in.time_column) test.time.push_back(in.time(*row, test));
+    const double stretch = in.stretch(*row, x);
+    test.first.push_back(stretch);
+    if (z.has_strain) {
+      test.second.push_back(in.stretch(*row, z));
+    } else if (in.format.ratio) {
+      test.second.push_back(in.stretch_above_0(*row, x, 1 + *in.format.ratio * (stretch - 1)));
     }
-    if (own_grids && in.is_empty(row, x)) continue;
-    Test& test = test_named(tests, in.format.like, name);
-    if (in.time_column) test.time.push_back(in.time(row, test));
-    test.first.push_back(in.stretch(row, x));
-    if (z.has_strain && !own_grids) test.second.push_back(in.stretch(row, z));
-    test.stress_x.push_back(x.stress_factor * in.number(row, x.stress));
-    if (z.has_stress && !own_grids)
-      test.stress_z.push_back(z.stress_factor * in.number(row, z.stress));
+    test.stress_x.push_back(x.stress_factor * in.number(*row, x.stress));
+    if (z.has_stress) test.stress_z.push_back(z.stress_factor * in.number(*row, z.stress));
   }
+  return test;
+}
+
+// Axes with grids of their own: rows in which one axis has no cells belong to the other.
+std::array<Test, 2> read_own_grids(Reading& in, const AxisColumns& x, const AxisColumns& z,
+                                   const RowGroup& group) {
+  Test along = in.format.like;
+  along.name = group.name;
+  for (const CsvRow* row : without_blank_end(group.rows, {x.strain, x.stress})) {
+    if (in.is_empty(*row, x)) continue;
+    const double stretch = in.stretch(*row, x);
+    along.first.push_back(stretch);
+    if (in.format.ratio) {
+      along.second.push_back(in.stretch_above_0(*row, x, 1 + *in.format.ratio * (stretch - 1)));
+    }
+    along.stress_x.push_back(x.stress_factor * in.number(*row, x.stress));
+  }
+
+  Test across = turned(in.format, group.name);
+  for (const CsvRow* row : without_blank_end(group.rows, {z.strain, z.stress})) {
+    if (in.is_empty(*row, z)) continue;
+    const double stretch = in.stretch(*row, z);
+    if (in.format.ratio) {
+      across.first.push_back(stretch);
+      across.second.push_back(in.stretch_above_0(*row, z, 1 + (stretch - 1) / *in.format.ratio));
+    } else if (across.kind == TestKind::biaxial) {
+      across.first.push_back(1);
+      across.second.push_back(stretch);
+    } else {
+      across.first.push_back(stretch);
+    }
+    across.stress_x.push_back(z.stress_factor * in.number(*row, z.stress));
+  }
+  return {along, across};
+}
+
+// Whether the deformation along x of the specimen is the second one of this test.
+bool runs_along_second(const TestFormat& format, bool own_grids, bool across, const Test& test) {
+  return own_grids && !test.second.empty() && (across || !format.ratio);
+}
+
+void check_compression(const Test& test, const Reading& in) {
+  const bool sign_is_given = in.format.strain_sign || in.format.stress_sign;
+  const bool says_so = in.says_compression ||
+                       names_compression(std::filesystem::path(in.table.name).stem().string()) ||
+                       names_compression(in.format.like.name);
+  if (sign_is_given || !says_so || !only_tension(test)) {
+    return;
+  }
+  throw Failure(Exit::input,
+                {{in.table.name, in.table.header.line, 1},
+                 "sign",
+                 "found a compression test by its name, with strains and stresses above 0",
+                 "the sign of compression",
+                 "sign: -1 in the item of `data` where the file counts compression positive, "
+                 "sign: 1 where it is tension"});
+}
+
+// Cuts a test that was read, and refuses what cannot be fitted.
+void finish(Test& test, const Reading& in, bool along_second) {
+  const TestFormat& f = in.format;
+  const std::string& file = in.table.name;
+  keep_times(test, f.part.time_from, f.part.time_to);
+  if (test.time.empty()) keep_cycles(test, f.cycles, file);
+  if (f.toe && test.points() > 0) shift_to_toe(test, *f.toe, file);
+  if (f.rest_at_start && test.points() > 0) shift_to_start(test);
+  const std::vector<double> along = along_second ? test.second : test.first;
+  keep_range(test, along, f.part.strain_from, f.part.strain_to);
+  compare_from(test, f.part.compare_from);
+  if (!test.time.empty()) keep_cycles(test, f.cycles, file);
+
+  const bool is_part = f.toe || !f.where.empty() || f.part.leaves_out() || f.cycles.leaves_out();
+  if (test.points() < 2) {
+    throw Failure(Exit::input,
+                  {{file, 0, 0},
+                   f.split.empty() ? std::string() : f.split + " = " + test.name,
+                   fmt::format("found {} points{}", test.points(), is_part ? " in the range" : ""),
+                   "two at least",
+                   ""});
+  }
+  check_compression(test, in);
+  check_signs(test, file);
+  const StepStart step{f.step_at, f.ramp};
+  if (step.is_given()) {
+    add_step(test, step, file);
+  } else if (f.viscous && starts_loaded(test)) {
+    const double first_time = test.before.time.empty() ? test.time[0] : test.before.time[0];
+    throw Failure(
+        Exit::input,
+        {{file, in.table.header.line, 1},
+         "step_at",
+         fmt::format(
+             "missing: the first reading, at {:g} s, is of a deformed and stressed specimen",
+             first_time),
+         "the time at which the specimen was deformed",
+         "step_at: 0 in the item of `data`, and ramp: (s) if the step took time"});
+  }
+  if (f.normalised) normalise(test, file);
 }
 
 }  // namespace
 
 std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
-  Reading in{table, format, {}, {}, {}, {}, false};
+  Reading in(table, format);
   if (table.header.cells.empty())
     throw Failure(Exit::input, {{table.name, 0, 0}, "", "found 0 points", "two at least", ""});
   in.found_by_name = format.strain_x.empty() && format.stress_x.empty();
   if (in.found_by_name) in.find_columns();
   const TestFormat& f = in.format;
   const bool biaxial = f.like.kind == TestKind::biaxial;
-  const bool own_grids = !biaxial && !f.strain_z.empty() && !f.stress_z.empty();
-  const auto strain_x = in.column(f.strain_x, "columns.strain_x"),
-             stress_x = in.column(f.stress_x, "columns.stress_x");
-  std::optional<std::size_t> strain_z, stress_z, split;
+  const bool own_grids = (!biaxial || f.ratio) && !f.strain_z.empty() && !f.stress_z.empty();
+  const auto strain_x = in.column(f.strain_x, "columns.strain_x");
+  const auto stress_x = in.column(f.stress_x, "columns.stress_x");
+  std::optional<std::size_t> strain_z, stress_z, time, split;
   if (!f.strain_z.empty()) strain_z = in.column(f.strain_z, "columns.strain_z");
   if (!f.stress_z.empty()) stress_z = in.column(f.stress_z, "columns.stress_z");
-  if (!f.time.empty()) in.time_column = in.column(f.time, "columns.time");
+  if (!f.time.empty()) time = in.column(f.time, "columns.time");
   if (!f.split.empty()) split = in.column(f.split, "split");
   for (const auto& [name, text] : f.where)
     if (const auto c = in.column(name, "where")) in.where.emplace_back(*c, text);
+  in.choose_block();
   in.check();
   AxisColumns x, z;
   in.add_strain(x, *strain_x, f.gauge_length, "gauge_length");
   in.add_stress(x, *stress_x, f.width, "width");
   if (strain_z) in.add_strain(z, *strain_z, f.gauge_length_z, "gauge_length_z");
   if (stress_z) in.add_stress(z, *stress_z, f.width_z, "width_z");
+  if (time) in.add_time(*time);
   in.check();
 
-  std::vector<Test> tests, others;
-  read_rows(in, x, z, split, own_grids, tests, others);
+  std::vector<Test> tests;
+  std::vector<Test> others;  // of axes with grids of their own, the second ones
+  for (const RowGroup& group : groups_of_rows(in, split)) {
+    if (own_grids) {
+      const auto [along, across] = read_own_grids(in, x, z, group);
+      if (along.points() > 0) tests.push_back(along);
+      if (across.points() > 0) others.push_back(across);
+    } else {
+      tests.push_back(read_axis(in, x, z, group));
+    }
+  }
   in.check();
   if (tests.empty()) tests.push_back(f.like);
-  const bool is_part = f.toe || !f.where.empty() || f.part.leaves_out();
-  const auto finish = [&](Test& test, const char* end) {
-    keep_times(test, f.part.time_from, f.part.time_to);
-    if (f.toe && test.points() > 0) shift_to_toe(test, *f.toe, table.name);
-    if (f.rest_at_start && test.points() > 0) shift_to_start(test);
-    keep_range(test,
-               std::vector<double>(own_grids && !test.second.empty() ? test.second : test.first),
-               f.part.strain_from, f.part.strain_to);
-    compare_from(test, f.part.compare_from);
-    if (test.points() < 2)
-      throw Failure(Exit::input, {{table.name, 0, 0},
-                                  split ? f.split + " = " + test.name : std::string(),
-                                  fmt::format("found {} points{}", test.points(),
-                                              is_part ? " in the range" : ""),
-                                  "two at least",
-                                  ""});
-    if (f.normalised) normalise(test, table.name);
-    test.name = (!split                ? f.like.name
-                 : f.like.name.empty() ? test.name
-                                       : f.like.name + "_" + test.name) +
-                end;
+  const bool named = split || in.several_blocks();
+  const auto finish_all = [&](std::vector<Test>& all, bool across) {
+    for (Test& test : all) {
+      finish(test, in, runs_along_second(f, own_grids, across, test));
+      if (!named) {
+        test.name = f.like.name;
+      } else if (!f.like.name.empty()) {
+        test.name = f.like.name + "_" + test.name;
+      }
+      if (across) test.name += "_z";
+    }
   };
-  for (Test& test : tests) finish(test, "");
-  for (Test& test : others) finish(test, "_z");
+  finish_all(tests, false);
+  finish_all(others, true);
   for (Test& other : others) tests.push_back(std::move(other));
+  if (in.several_blocks()) {
+    in.notes.push_back(fmt::format("{}: {} blocks of rows, each a test of its own", table.name,
+                                   table.blocks.size()));
+  }
   tests.front().notes = in.notes;
   return tests;
 }
 
 std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name,
                               const TestFormat& format) {
+  // A name, or the place of one: "column 3" is a text that is no number.
+  const auto has = [](const std::vector<CsvCell>& cells, const std::string& name) {
+    const std::string word = "column ";
+    if (name.starts_with(word)) {
+      const auto place = csv_number(name.substr(word.size()));
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        const bool is_there = place && *place == static_cast<double>(i + 1);
+        if (is_there && !cells[i].text.empty() && !csv_number(cells[i].text)) return true;
+      }
+    }
+    return name.empty() || std::any_of(cells.begin(), cells.end(),
+                                       [&](const CsvCell& c) { return c.text == name; });
+  };
   const auto names_columns = [&](const std::vector<CsvCell>& cells) {
-    const auto has = [&](const std::string& name) {
-      return name.empty() || std::any_of(cells.begin(), cells.end(),
-                                         [&](const CsvCell& c) { return c.text == name; });
-    };
-    if (!format.strain_x.empty())
-      return has(format.strain_x) && has(format.stress_x) && has(format.strain_z) &&
-             has(format.stress_z) && has(format.time);
-    bool deformation = false, stress = false;
+    if (!format.strain_x.empty()) {
+      return has(cells, format.strain_x) && has(cells, format.stress_x) &&
+             has(cells, format.strain_z) && has(cells, format.stress_z) && has(cells, format.time);
+    }
+    bool deformation = false;
+    bool stress = false;
     for (const CsvCell& cell : cells) {
       const ColumnMeaning m = column_meaning(cell.text);
-      deformation = deformation || m.of == ColumnMeaning::Of::deformation,
+      deformation = deformation || m.of == ColumnMeaning::Of::deformation;
       stress = stress || m.of == ColumnMeaning::Of::stress;
     }
     return deformation && stress;

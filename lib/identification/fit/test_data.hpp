@@ -8,9 +8,12 @@
 // A measure that nobody told: deformations that start at 1 are stretches, those that start at 0
 // engineering strains, others are asked about; what was taken stands in `notes`. Refused, with
 // file, line and column: unknown columns, text where a number should be, NaN, infinity, stretches
-// <= 0, times that go back, fewer than two points.
+// <= 0, times that go back, fewer than two points, stress and strain of opposite signs.
+// Cells without a value at the end of a test's columns end that test: specimens of different length
+// stand side by side. Where the line of names is repeated, each block of rows is a test.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +59,25 @@ struct KeptPart {
   }
 };
 
+// Which cycles and branches of a record are kept, see test_cycles.hpp.
+enum class KeptUntil { end, peak };
+constexpr auto names(KeptUntil) { return std::array{"end", "peak"}; }
+enum class KeptBranch { all, loading, unloading };
+constexpr auto names(KeptBranch) { return std::array{"all", "loading", "unloading"}; }
+enum class KeptCycle { all, last };
+constexpr auto names(KeptCycle) { return std::array{"all", "last"}; }
+
+struct TestCycles {
+  KeptUntil until = KeptUntil::end;
+  KeptBranch branch = KeptBranch::all;
+  KeptCycle cycle = KeptCycle::all;
+  int skip_cycles = 0;
+  bool leaves_out() const {
+    return until != KeptUntil::end || branch != KeptBranch::all || cycle != KeptCycle::all ||
+           skip_cycles > 0;
+  }
+};
+
 struct TestFormat {
   Test like;  // name, kind, shear, angle, weight; measure where neither `stress` nor the column
               // tells
@@ -63,13 +85,22 @@ struct TestFormat {
   std::optional<StressMeasure> stress;
   std::optional<StressUnit> stress_unit;  // where the column's name does not tell
   std::optional<StrainUnit> strain_unit;
+  std::optional<TimeUnit> time_unit;
   std::optional<DecimalSign> decimal;
+  // 1 or -1: factors of strains and elongations (not of stretches), and of stresses and forces
+  std::optional<double> strain_sign, stress_sign;
   // columns; all empty: found by their names. strain_z and stress_z may be empty; an equibiaxial or
   // pure shear test with strain_z has a grid of its own for each axis and becomes two tests
   std::string strain_x, strain_z, stress_x, stress_z, time;
   std::map<std::string, std::string> where;  // only rows with these texts in these columns
   std::string split;                         // a column: one test per text in it
-  KeptPart part;                             // of its points
+  std::string block;                         // the label of one of several blocks of rows
+  // of a biaxial test whose axes have grids of their own: (lambda_z - 1) / (lambda_x - 1)
+  std::optional<double> ratio;
+  KeptPart part;  // of its points
+  TestCycles cycles;
+  std::optional<double> step_at, ramp;  // [s], see StepStart in test_range.hpp
+  bool viscous = false;                 // the law: then the beginning of a record matters
   std::optional<double> width, thickness, gauge_length, width_z,
       gauge_length_z;  // at rest [mm]; z: for force and elongation along z
   std::optional<double>

@@ -18,18 +18,6 @@ std::array<std::vector<double>*, 5> lists(Test& test) {
   return {&test.first, &test.second, &test.stress_x, &test.stress_z, &test.time};
 }
 
-void keep_where(Test& test, const std::function<bool(std::size_t)>& kept) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < test.points(); ++i) {
-    if (!kept(i)) continue;
-    for (auto* list : lists(test))
-      if (!list->empty()) (*list)[n] = (*list)[i];
-    ++n;
-  }
-  for (auto* list : lists(test))
-    if (!list->empty()) list->resize(n);
-}
-
 // The body at the stretch l0 is the new one at rest: P l is the force over its area, S l^2 too.
 void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches,
               std::vector<double>& stresses) {
@@ -40,7 +28,23 @@ void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches,
   for (double& s : stresses) s *= area;
 }
 
+double at_rest(const Test& test) { return test.kind == TestKind::simple_shear ? 0 : 1; }
+
 }  // namespace
+
+void keep_points(Test& test, const std::function<bool(std::size_t)>& kept) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < test.points(); ++i) {
+    if (!kept(i)) continue;
+    for (auto* list : lists(test)) {
+      if (!list->empty()) (*list)[n] = (*list)[i];
+    }
+    ++n;
+  }
+  for (auto* list : lists(test)) {
+    if (!list->empty()) list->resize(n);
+  }
+}
 
 void shift_to_toe(Test& test, double toe, const std::string& file) {
   const auto error = [&](std::string found, std::string expected) {
@@ -87,7 +91,7 @@ void shift_to_start(Test& test) {
 }
 
 void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
-  keep_where(test, [&](std::size_t i) {
+  keep_points(test, [&](std::size_t i) {
     const double strain =
         test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
     return strain >= from && strain <= to;
@@ -96,19 +100,81 @@ void keep_range(Test& test, const std::vector<double>& along, double from, doubl
 
 void keep_times(Test& test, double from, double to) {
   if (!test.time.empty())
-    keep_where(
+    keep_points(
         test, [&, times = test.time](std::size_t i) { return times[i] >= from && times[i] <= to; });
 }
 
 void compare_from(Test& test, double from) {
   std::size_t n = 0;
   while (n < test.time.size() && test.time[n] < from) ++n;
-  const auto up_to_n = [&](const std::vector<double>& all) {
-    return std::vector<double>(all.begin(),
-                               all.begin() + static_cast<std::ptrdiff_t>(std::min(n, all.size())));
+  make_history(test, n);
+}
+
+void make_history(Test& test, std::size_t n) {
+  const auto first_ones = [n](const std::vector<double>& all) {
+    const std::size_t end = std::min(n, all.size());
+    return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(end));
   };
-  test.before = {up_to_n(test.first), up_to_n(test.second), up_to_n(test.time)};
-  if (n > 0) keep_where(test, [n](std::size_t i) { return i >= n; });
+  test.before = {first_ones(test.first), first_ones(test.second), first_ones(test.time)};
+  if (n > 0) {
+    keep_points(test, [n](std::size_t i) { return i >= n; });
+  }
+}
+
+void add_step(Test& test, const StepStart& step, const std::string& file) {
+  const bool has_history = !test.before.time.empty();
+  const std::vector<double>& times = has_history ? test.before.time : test.time;
+  const std::vector<double>& first = has_history ? test.before.first : test.first;
+  const std::vector<double>& second = has_history ? test.before.second : test.second;
+  if (times.empty()) {
+    return;
+  }
+  const double first_reading = times.front();
+  const double ramp = step.ramp.value_or(0);
+  const double start = step.step_at.value_or(first_reading - ramp);
+  const double rounding = 1e-12 * (std::abs(start) + ramp + std::abs(first_reading));
+  if (start + ramp > first_reading + rounding) {
+    throw Failure(Exit::input,
+                  {{file, 0, 0},
+                   step.step_at ? "step_at" : "ramp",
+                   fmt::format("found a step that ends at {:g} s, and a first reading at {:g} s",
+                               start + ramp, first_reading),
+                   "a step that ends before the first reading",
+                   "a shorter ramp, or an earlier step_at"});
+  }
+
+  // A ramp is followed in 20 increments; a step of no duration is one.
+  const int increments = ramp > 0 ? 20 : 1;
+  Past past;
+  for (int i = 0; i <= increments; ++i) {
+    const double part = static_cast<double>(i) / increments;
+    past.time.push_back(std::min(start + part * ramp, first_reading));
+    past.first.push_back(at_rest(test) + part * (first.front() - at_rest(test)));
+    if (!second.empty()) past.second.push_back(1 + part * (second.front() - 1));
+  }
+  const auto append = [](std::vector<double>& all, const std::vector<double>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  append(past.time, test.before.time);
+  append(past.first, test.before.first);
+  append(past.second, test.before.second);
+  test.before = std::move(past);
+}
+
+bool starts_loaded(const Test& test) {
+  const bool has_history = !test.before.time.empty();
+  if (test.time.empty()) {
+    return false;
+  }
+  const double first_time = has_history ? test.before.time.front() : test.time.front();
+  const double first = has_history ? test.before.first.front() : test.first.front();
+  double reach = 0;
+  for (const double x : test.first) reach = std::max(reach, std::abs(x - at_rest(test)));
+  const double part = std::abs(first - at_rest(test)) / std::max(reach, 1e-300);
+  const double stress =
+      has_history ? 1 : std::abs(test.stress_x.front()) / std::max(largest_stress(test), 1e-300);
+  constexpr double loaded = 0.05;
+  return first_time != 0 && part > loaded && stress > loaded;
 }
 
 void normalise(Test& test, const std::string& file) {

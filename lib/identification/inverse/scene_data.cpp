@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "core/base/csv_table.hpp"
+#include "core/base/measured_units.hpp"
 #include "core/config/writer.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -16,32 +17,44 @@ namespace langer {
 
 namespace {
 
-struct KnownUnit {
-  const char *word, *unit;
-  double factor;
-};
-constexpr KnownUnit known_units[]{
-    {"mm", "mm", 1},       {"um", "mm", 1e-3},   {"µm", "mm", 1e-3},
-    {"cm", "mm", 10},      {"m", "mm", 1e3},     {"N", "N", 1},
-    {"mN", "N", 1e-3},     {"kN", "N", 1e3},     {"gf", "N", 9.80665e-3},
-    {"MPa", "MPa", 1},     {"kPa", "MPa", 1e-3}, {"Pa", "MPa", 1e-6},
-    {"mbar", "MPa", 1e-4}, {"bar", "MPa", 0.1},  {"mmHg", "MPa", 1.33322387415e-4},
-    {"s", "s", 1},         {"ms", "s", 1e-3},    {"min", "s", 60}};
-
-const KnownUnit* find_unit(std::string text) {
-  std::erase_if(text,
-                [](char c) { return c == '[' || c == ']' || c == '(' || c == ')' || c == ' '; });
-  for (const KnownUnit& one : known_units)
-    if (text == one.word) return &one;
-  return nullptr;
+Quantity quantity_of(const std::string& unit) {
+  if (unit == "mm") return Quantity::length;
+  if (unit == "N") return Quantity::force;
+  if (unit == "MPa") return Quantity::stress;
+  if (unit == "s") return Quantity::time;
+  return Quantity::ratio;
 }
 
-// travel_mm, Force (N), "Standardkraft [N]", Extension / mm
-const KnownUnit* unit_in_name(const std::string& name) {
-  for (const char* parts : {"[", "(", "/", "_", " "})
-    if (const auto at = name.find_last_of(parts); at != std::string::npos && at + 1 < name.size())
-      if (const KnownUnit* unit = find_unit(name.substr(at + 1))) return unit;
-  return nullptr;
+// The unit of a heading: travel_mm, Force (N), "Standardkraft [N]", Extension / mm, t_min. Behind a
+// blank or an underscore h and d are units in columns of times only: u_h is no time.
+std::optional<MeasuredUnit> unit_in_name(const std::string& name, Quantity quantity) {
+  for (const std::string separator : {"[", "(", "/", ",", "_", " "}) {
+    const std::size_t at = name.find_last_of(separator);
+    if (at == std::string::npos || at + 1 >= name.size()) continue;
+    std::string text = name.substr(at + 1);
+    std::erase_if(text, [](char c) { return c == ']' || c == ')'; });
+    const auto unit = measured_unit(text);
+    if (!unit || unit->quantity == Quantity::ratio) continue;
+    const bool joined = separator == "_" || separator == " ";
+    const bool may_be_index = unit->name == "h" || unit->name == "d" || unit->name == "in";
+    if (joined && may_be_index && unit->quantity != quantity) continue;
+    return unit;
+  }
+  return std::nullopt;
+}
+
+// Of a column of times the words may be the unit: "Minutes".
+std::optional<MeasuredUnit> unit_of(const std::string& name, const std::string& below,
+                                    Quantity quantity) {
+  const auto unit = measured_unit(below);
+  if (unit && unit->quantity != Quantity::ratio) {
+    return unit;
+  }
+  if (quantity == Quantity::time) {
+    const auto time = measured_unit(time_unit_text(name, ""));
+    if (time) return time;
+  }
+  return unit_in_name(name, quantity);
 }
 
 std::vector<std::pair<const char*, const std::string*>> asked(const FitColumns& c) {
@@ -70,17 +83,21 @@ std::vector<std::pair<const char*, const std::string*>> asked(const FitColumns& 
                 Error{at, key, std::move(found), std::move(expected), std::move(hint)});
 }
 
-double factor_of(const SceneColumn& column, const KnownUnit* unit) {
+std::string known_units(const std::string& unit) {
+  if (unit == "mm") return "one of length: mm, um, cm, m, in";
+  if (unit == "N") return "one of force: N, mN, kN, gf, kgf, lbf";
+  if (unit == "s") return "one of time: s, ms, min, h";
+  if (unit == "MPa") return "one of pressure: MPa, kPa, Pa, mbar, psi";
+  return "no unit";
+}
+
+double factor_of(const SceneColumn& column, const std::optional<MeasuredUnit>& unit) {
   if (!unit) return 1;
-  if (std::string(unit->unit) != column.unit)
+  if (unit->quantity != quantity_of(column.unit)) {
     refuse(column.place, "columns." + column.key,
-           fmt::format("the unit {} of the column \"{}\"", unit->word, column.header),
-           column.unit == "-"
-               ? "no unit"
-               : fmt::format("one of {}", column.unit == "mm"  ? "length: mm, um, cm, m"
-                                          : column.unit == "N" ? "force: N, mN, kN"
-                                          : column.unit == "s" ? "time: s, ms, min"
-                                                               : "pressure: MPa, kPa, Pa, mbar"));
+           fmt::format("the unit {} of the column \"{}\"", unit->name, column.header),
+           known_units(column.unit));
+  }
   return unit->factor;
 }
 
@@ -104,7 +121,9 @@ SceneData from_curves(const FitData& data, const std::string& file) {
       if (csv_name(column.name, column.unit) == name) name = column.name;
     const Column& column = curves.curves.columns[column_called(names, name, key, {file})];
     SceneColumn one{key, name, unit_of_column(key), column.values, {file}};
-    const double factor = factor_of(one, find_unit(column.unit));
+    auto unit = measured_unit(column.unit);
+    if (unit && unit->quantity == Quantity::ratio) unit.reset();
+    const double factor = factor_of(one, unit);
     for (double& value : one.values) value *= factor;
     read.columns.push_back(std::move(one));
   }
@@ -129,6 +148,17 @@ SceneData from_table(const FitData& data, const std::string& file) {
           return row.cells[column_called(names, one.first, "where", header)].text == one.second;
         }))
       rows.push_back(&row);
+  // rows at the end without a value in any of the columns: another record was longer
+  std::vector<std::size_t> places;
+  for (const auto& [key, wanted] : columns) {
+    places.push_back(column_called(names, *wanted, key, header));
+  }
+  const auto is_blank = [&](const CsvRow& row) {
+    return std::all_of(places.begin(), places.end(),
+                       [&](std::size_t at) { return is_blank_cell(row.cells[at].text); });
+  };
+  while (!rows.empty() && is_blank(*rows.back())) rows.pop_back();
+
   SceneData read;
   if (rows.empty())
     refuse(header, "file", "no rows", "a row of numbers at least",
@@ -140,8 +170,8 @@ SceneData from_table(const FitData& data, const std::string& file) {
                     unit_of_column(key),
                     {},
                     {file, table.header.line, table.header.cells[at].column}};
-    const KnownUnit* below = table.units.empty() ? nullptr : find_unit(table.units[at]);
-    const double factor = factor_of(one, below ? below : unit_in_name(*wanted));
+    const std::string below = table.units.empty() ? "" : table.units[at];
+    const double factor = factor_of(one, unit_of(*wanted, below, quantity_of(one.unit)));
     for (const CsvRow* row : rows) {
       const auto number = table.number(row->cells[at]);
       if (!number || !std::isfinite(*number))

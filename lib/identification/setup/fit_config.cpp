@@ -40,6 +40,7 @@ std::vector<Complaint> FitData::complaints() const {
           {"stress_x", &columns->stress_x,
            "text (stress along x; in simple shear the shear stress)"}})
       if (text->empty()) all.push_back({std::string("columns.") + key, "missing", says, ""});
+  complain_of_laboratory_keys(all);
   const bool biaxial = kind == DataKind::biaxial;
   if (!columns && (biaxial || kind == DataKind::simple_shear))
     all.push_back(
@@ -51,13 +52,13 @@ std::vector<Complaint> FitData::complaints() const {
   if (!columns && (!split.empty() || !where.empty()))
     all.push_back({split.empty() ? "where" : "split", "found without `columns`",
                    "the columns of deformation and stress", ""});
-  if (columns && biaxial && columns->strain_z.empty())
+  if (columns && biaxial && columns->strain_z.empty() && !ratio)
     all.push_back(
         {"columns.strain_z", "missing", "the deformation along z, which a biaxial test imposes",
-         "both axes at the same instants in one file; of an equibiaxial or pure shear test each axis may be an item of its own, "
-         "the second with fibre_angle: 90"});
-  const bool own_grids = columns && !biaxial && !columns->strain_z.empty();
-  if (own_grids && kind != DataKind::equibiaxial && kind != DataKind::pure_shear)
+         "both axes at the same instants in one file; of an equibiaxial or pure shear test, or with ratio:, each axis may be an item "
+         "of its own, the second with fibre_angle: 90"});
+  const bool own_grids = columns && (!biaxial || ratio) && !columns->strain_z.empty();
+  if (own_grids && !biaxial && kind != DataKind::equibiaxial && kind != DataKind::pure_shear)
     all.push_back({"columns.strain_z", "found in a test without stress along z",
                    "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())

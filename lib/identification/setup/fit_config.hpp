@@ -39,7 +39,7 @@ struct FitColumns {
       "stress along x; in simple shear the shear stress");
     v(&FitColumns::stress_z, "stress_z", unit::none, "stress along z, where it was measured");
     v(&FitColumns::time, "time", unit::s,
-      "of each point, where the law is viscous: relaxation, ramp and hold, cycles. The specimen is at rest until the first point; of a scene with path.seconds: over which it was measured");
+      "of each point, where the law is viscous: relaxation, ramp and hold, cycles. The specimen is at rest until the first point, see step_at; its name or time_unit gives another unit than s; of a scene with path.seconds: over which it was measured");
     v(&FitColumns::u_ind, "u_ind", unit::none,
       "of a scene: travel of the indenter, over which it was measured");
     v(&FitColumns::displacement, "displacement", unit::none,
@@ -81,6 +81,7 @@ struct FitData {
   std::optional<StrainMeasure> strain;
   std::optional<StressUnit> stress_unit;
   std::optional<StrainUnit> strain_unit;
+  std::optional<TimeUnit> time_unit;
   OffAxisShear shear = OffAxisShear::held;
   double fibre_angle = 0;
   std::optional<DecimalSign> decimal;
@@ -90,7 +91,12 @@ struct FitData {
   std::optional<double> weight, standard_deviation, strain_from, strain_to, time_from, time_to,
       compare_from;
   std::map<std::string, std::string> where;
-  std::string split;
+  std::string split, block, name_pattern;
+  std::optional<double> sign, strain_sign, stress_sign, step_at, ramp, ratio;
+  KeptUntil until = KeptUntil::end;
+  KeptBranch branch = KeptBranch::all;
+  KeptCycle cycle = KeptCycle::all;
+  int skip_cycles = 0;
   static void fields(auto& v) {
     v(&FitData::file, "file", unit::none,
       "measured test, CSV; keys of this list may stand in its header between lines `# ---`, or in a YAML file of its name; none: the "
@@ -122,9 +128,9 @@ struct FitData {
       "measure of the deformation where its column's name does not tell; without either stretch where it starts at 1, engineering "
       "where it starts at 0, and said");
     v(&FitData::stress_unit, "stress_unit", unit::none,
-      "where the column's name does not tell; of a force (N, mN, kN) width and thickness make a nominal stress");
+      "where the column's name does not tell; of a force (N, mN, kN, gf, kgf, lbf) width and thickness make a nominal stress");
     v(&FitData::strain_unit, "strain_unit", unit::none,
-      "where the column's name does not tell, fraction by default; of an elongation (mm, um) gauge_length makes a strain");
+      "where the column's name does not tell, fraction by default; of an elongation (mm, um, cm, m, in) gauge_length makes a strain");
     v(&FitData::decimal, "decimal", unit::none,
       "sign of decimals where the file leaves it open, as 1,234 does");
     v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x",
@@ -148,6 +154,40 @@ struct FitData {
     v(&FitData::where, "where", unit::none, "column: text; rows with other texts are left out");
     v(&FitData::split, "split", unit::none,
       "a column: one test for each text in it, such as a protocol");
+    laboratory_fields(v);
+  }
+  // how the machine and its operator wrote the file
+  static void laboratory_fields(auto& v) {
+    v(&FitData::time_unit, "time_unit", unit::none,
+      "of the column of times, where its name does not tell; seconds by default");
+    v(&FitData::sign, "sign", unit::none,
+      "-1: strains, elongations, stresses and forces change their sign, where the file counts compression or pushing positive; a "
+      "stretch stays what it is. 1: they do not, which confirms the file");
+    v(&FitData::strain_sign, "strain_sign", unit::none,
+      "1 or -1: the same for strains and elongations alone");
+    v(&FitData::stress_sign, "stress_sign", unit::none,
+      "1 or -1: the same for stresses and forces alone");
+    v(&FitData::block, "block", unit::none,
+      "of a file that repeats its line of names: what stands above the one to read, such as Specimen 2; none: one test for each");
+    v(&FitData::name_pattern, "name_pattern", unit::none,
+      "how the file's name holds sizes, such as *_w{width}_t{thickness}_L{gauge_length}; * is any text, a number may have p for its "
+      "point; {fibre_angle}, {width_z} and {gauge_length_z} are read too");
+    v(&FitData::ratio, "ratio", unit::none,
+      "of a biaxial test whose axes have grids of their own: (lambda_z - 1) / (lambda_x - 1), held throughout the test",
+      positive);
+    v(&FitData::step_at, "step_at", unit::s,
+      "time at which the specimen leaves rest for the deformation of the first reading; for relaxation tables without t = 0");
+    v(&FitData::ramp, "ramp", unit::s,
+      "duration of that step; without step_at the ramp ends at the first reading", at_least(0));
+    v(&FitData::until, "until", unit::none,
+      "peak: points behind the largest stress along x are left out");
+    v(&FitData::branch, "branch", unit::none,
+      "loading or unloading: points where the strain moves away from 0, or back; turns by less than 3 % of its range are noise");
+    v(&FitData::cycle, "cycle", unit::none,
+      "last: earlier cycles are left out; with a column of times they are history, as before compare_from");
+    v(&FitData::skip_cycles, "skip_cycles", unit::none,
+      "number of cycles at the beginning that are left out, or are history, such as preconditioning",
+      at_least(0));
   }
   // which points count, how much and from where
   static void counted_fields(auto& v) {
@@ -179,6 +219,7 @@ struct FitData {
 
  private:
   void complain_of_scene(std::vector<Complaint>& all) const;
+  void complain_of_laboratory_keys(std::vector<Complaint>& all) const;
   void complain_of_homogeneous_keys(
       std::vector<Complaint>& all) const;  // that a scene does not read
 };

@@ -27,6 +27,18 @@ void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
                                    {"zero_at", zero_at != ZeroAt::reading},
                                    {"normalised", normalised},
                                    {"shear", shear != OffAxisShear::held},
+                                   {"sign", sign.has_value()},
+                                   {"strain_sign", strain_sign.has_value()},
+                                   {"stress_sign", stress_sign.has_value()},
+                                   {"step_at", step_at.has_value()},
+                                   {"ramp", ramp.has_value()},
+                                   {"ratio", ratio.has_value()},
+                                   {"until", until != KeptUntil::end},
+                                   {"branch", branch != KeptBranch::all},
+                                   {"cycle", cycle != KeptCycle::all},
+                                   {"skip_cycles", skip_cycles > 0},
+                                   {"block", !block.empty()},
+                                   {"name_pattern", !name_pattern.empty()},
                                    {"split", !split.empty()}})
     if (found)
       all.push_back({key, "found in a scene", "a homogeneous test, or without it",
