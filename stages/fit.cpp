@@ -39,6 +39,22 @@ void need_optimum(const Job<FitConfig>& job, const FitResult& found) {
          "", "more starts, other start values or narrower bounds"});
 }
 
+// A law that misses the data by more than their own mean does is no result; it is written all the
+// same, so that the user sees how it misses them.
+void require_description(const Job<FitConfig>& job, const FitRecord& record) {
+  if (!(record.r2 < 0)) {
+    return;
+  }
+  throw Failure(
+      Exit::not_converged,
+      {job.where("data"), "data",
+       fmt::format("R2 {:.3g}: the law describes the data worse than their mean does", record.r2),
+       "R2 above 0",
+       job.output +
+           " holds what was found; check the signs (sign: -1), the measures and the units of "
+           "the data, and the bounds of the parameters"});
+}
+
 // tables and figures of what was measured in scenes
 void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) {
   for (const NamedTable& table : curve_tables(record))
@@ -124,6 +140,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
   if (scenes) scenes->done();
+  require_description(job, record);
   return read_summary(job.output);
 }
 

@@ -126,3 +126,25 @@ if(EXISTS ${measured})
 else()
   message(STATUS "no record measured in vivo here: only the made-up one was fitted")
 endif()
+
+# a law that describes the data worse than their mean is written, and is no success
+file(WRITE ${WORK}/stiff.csv "stretch,nominal_stress_MPa\n1,0\n1.1,0.0055\n1.2,0.0101\n1.3,0.0142\n")
+set(stiff "law: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 1e-6}}}\nparameters: [{key: matrix.neo_hooke.a1, lower: 0.5, upper: 2}]\n")
+file(WRITE ${WORK}/stiff.yaml "data: [{file: stiff.csv}]\n${stiff}")
+run(4 "the law describes the data worse than their mean does; expected R2 above 0" ${BIN}/langer-fit stiff.yaml -o stiff/material.h5)
+run(0 "neo_hooke" ${BIN}/langer show stiff/material.h5)
+
+# compression that counts positive is refused by every program that reads the data, and the key that is named cures it
+file(WRITE ${WORK}/pressed.csv "stretch,nominal_stress_kPa\n1,0\n0.9,6.69136\n0.8,15.25\n0.7,27.818\n")
+set(pressed "law: {matrix: {neo_hooke: {a1: 0.02}}, volume: {quadratic: {d: 1e-6}}}\nbounds: admissible\nparameters: [{key: matrix.neo_hooke.a1}]\n")
+file(WRITE ${WORK}/pressed.yaml "data: [{file: pressed.csv}]\n${pressed}")
+run(3 "pressed.csv: stress_sign: found a stretch of 0.7 with a stress of" ${BIN}/langer-fit pressed.yaml -o pressed/material.h5)
+run(3 "stress_sign: -1 in the item of `data`" ${BIN}/langer check pressed.yaml)
+file(WRITE ${WORK}/turned.yaml "data: [{file: pressed.csv, stress_sign: -1}]\n${pressed}")
+run(0 "\"a1_MPa\": 0.0" ${BIN}/langer-fit turned.yaml -o turned/material.h5 --json)
+
+# a workbook
+string(ASCII 80 75 3 4 workbook)
+file(WRITE ${WORK}/curve.xlsx "${workbook}rest")
+file(WRITE ${WORK}/workbook.yaml "data: [{file: curve.xlsx}]\n${pressed}")
+run(3 "curve.xlsx:1:1: found a workbook (.xlsx, .ods) or another zip archive" ${BIN}/langer-fit workbook.yaml -o workbook/material.h5)
