@@ -27,10 +27,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   biaxial.stress_z = "sz", biaxial.split = "test";
   TestFormat sized;
   sized.width = 10, sized.thickness = 2, sized.gauge_length = 40, sized.toe = 0.01;
-  for (const TestFormat& format : {uniaxial, biaxial, sized})
+  TestFormat timed = uniaxial;
+  timed.time = "t";
+  timed.viscous = true;
+  timed.cycles.skip_cycles = 1;
+  TestFormat stepped = timed;
+  stepped.cycles = {};
+  stepped.step_at = 0;
+  stepped.ramp = 0.5;
+  TestFormat loading = sized;
+  loading.toe.reset();
+  loading.strain_sign = -1;
+  loading.stress_sign = -1;
+  loading.cycles = {KeptUntil::peak, KeptBranch::loading, KeptCycle::last, 0};
+  TestFormat ratio = biaxial;
+  ratio.ratio = 0.5;
+  for (const TestFormat& format : {uniaxial, biaxial, sized, timed, stepped, loading, ratio})
     fuzz::reads_or_refuses("input.csv", [&] {
       for (const Test& test : parse_tests(text, "input.csv", format))
-        finite(test.first), finite(test.second), finite(test.stress_x), finite(test.stress_z);
+        for (const auto* list :
+             {&test.first, &test.second, &test.stress_x, &test.stress_z, &test.time,
+              &test.before.first, &test.before.second, &test.before.time})
+          finite(*list);
     });
   return 0;
 }

@@ -343,6 +343,15 @@ struct Reading {
     return 0;
   }
 
+  // A number times a factor of units, which may leave the range of numbers.
+  double scaled(const CsvRow& row, std::size_t column, double unit) {
+    const double x = unit * number(row, column);
+    if (std::isfinite(x)) return x;
+    say(row.line, row.cells[column].column, "", "found " + row.cells[column].text,
+        "a number that stays finite in MPa and s");
+    return 0;
+  }
+
   // The stretch of the other axis, which follows from the row by the ratio.
   double stretch_above_0(const CsvRow& row, const AxisColumns& axis, double stretch) {
     if (stretch > 0 && std::isfinite(stretch)) return stretch;
@@ -422,7 +431,7 @@ struct Reading {
 
   // [s]; that of one row after another of a test does not go back
   double time(const CsvRow& row, const Test& test) {
-    const double t = time_factor * number(row, *time_column);
+    const double t = scaled(row, *time_column, time_factor);
     if (!test.time.empty() && t < test.time.back())
       say(row.line, row.cells[*time_column].column, "columns.time",
           fmt::format("found {:g} s after {:g} s", t, test.time.back()),
@@ -522,8 +531,8 @@ Test read_axis(Reading& in, const AxisColumns& x, const AxisColumns& z, const Ro
     } else if (in.format.ratio) {
       test.second.push_back(in.stretch_above_0(*row, x, 1 + *in.format.ratio * (stretch - 1)));
     }
-    test.stress_x.push_back(x.stress_factor * in.number(*row, x.stress));
-    if (z.has_stress) test.stress_z.push_back(z.stress_factor * in.number(*row, z.stress));
+    test.stress_x.push_back(in.scaled(*row, x.stress, x.stress_factor));
+    if (z.has_stress) test.stress_z.push_back(in.scaled(*row, z.stress, z.stress_factor));
   }
   return test;
 }
@@ -540,7 +549,7 @@ std::array<Test, 2> read_own_grids(Reading& in, const AxisColumns& x, const Axis
     if (in.format.ratio) {
       along.second.push_back(in.stretch_above_0(*row, x, 1 + *in.format.ratio * (stretch - 1)));
     }
-    along.stress_x.push_back(x.stress_factor * in.number(*row, x.stress));
+    along.stress_x.push_back(in.scaled(*row, x.stress, x.stress_factor));
   }
 
   Test across = turned(in.format, group.name);
@@ -556,7 +565,7 @@ std::array<Test, 2> read_own_grids(Reading& in, const AxisColumns& x, const Axis
     } else {
       across.first.push_back(stretch);
     }
-    across.stress_x.push_back(z.stress_factor * in.number(*row, z.stress));
+    across.stress_x.push_back(in.scaled(*row, z.stress, z.stress_factor));
   }
   return {along, across};
 }
