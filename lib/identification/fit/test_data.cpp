@@ -720,6 +720,10 @@ std::vector<Test> parse_tests(const std::string& text, const std::string& shown_
       return has(cells, format.strain_x) && has(cells, format.stress_x) &&
              has(cells, format.strain_z) && has(cells, format.stress_z) && has(cells, format.time);
     }
+    // rows of numbers, and lines in another separator, are recognised without reading words
+    if (cells.size() < 2 || csv_number(cells.front().text)) {
+      return false;
+    }
     bool deformation = false;
     bool stress = false;
     for (const CsvCell& cell : cells) {
