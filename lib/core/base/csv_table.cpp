@@ -67,11 +67,12 @@ Digits digits_of(const std::string& text) {
   if (m.empty() || m.find_first_not_of("0123456789.,") != std::string::npos ||
       !std::any_of(m.begin(), m.end(), is_digit))
     return d;
-  const auto commas = std::count(m.begin(), m.end(), ','),
-             points = std::count(m.begin(), m.end(), '.');
+  const auto commas = std::count(m.begin(), m.end(), ',');
+  const auto points = std::count(m.begin(), m.end(), '.');
   std::string as_point = text;
   std::replace(as_point.begin(), as_point.end(), ',', '.');
-  d.comma = commas > 0, d.point = points > 0;
+  d.comma = commas > 0;
+  d.point = points > 0;
   d.both = (commas > 0 && points > 0) || commas > 1;
   d.number = !d.both && csv_number(as_point).has_value();
   const std::size_t comma = m.find(',');
@@ -253,10 +254,18 @@ DecimalSign decimal_sign(const CsvTable& table) {
       if (cell.text.find_first_of(".,") == std::string::npos) continue;
       const Digits d = digits_of(cell.text);
       if (!d.number) continue;
-      if (d.point && !with_point) with_point = &cell, line_of_point = row.line;
-      if (d.comma && d.thousands && !maybe_thousands)
-        maybe_thousands = &cell, line_of_thousands = row.line;
-      if (d.comma && !d.thousands && !with_comma) with_comma = &cell, line_of_comma = row.line;
+      if (d.point && !with_point) {
+        with_point = &cell;
+        line_of_point = row.line;
+      }
+      if (d.comma && d.thousands && !maybe_thousands) {
+        maybe_thousands = &cell;
+        line_of_thousands = row.line;
+      }
+      if (d.comma && !d.thousands && !with_comma) {
+        with_comma = &cell;
+        line_of_comma = row.line;
+      }
     }
   if (!with_comma && !maybe_thousands) return DecimalSign::point;
   const CsvCell& comma = with_comma ? *with_comma : *maybe_thousands;
