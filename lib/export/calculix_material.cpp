@@ -82,7 +82,10 @@ std::string hyperelastic(const Material& m) {
   std::vector<double>
       numbers;  // mu there is mu alpha/2 here; alpha = 0 is no energy, since l_1 l_2 l_3 = 1
   for (const auto& [mu, alpha] : t->parts())
-    if (mu != 0 && alpha != 0) numbers.push_back(mu * alpha / 2), numbers.push_back(alpha);
+    if (mu != 0 && alpha != 0) {
+      numbers.push_back(mu * alpha / 2);
+      numbers.push_back(alpha);
+    }
   const std::size_t n = numbers.size() / 2;
   if (n == 0) return "";
   numbers.push_back(d);

@@ -19,7 +19,8 @@ namespace {
 // the matrix where it is one term of a kind
 template <class Term>
 const Term* only(const Material& m) {
-  return m.matrix.size() == 1 ? std::get_if<Term>(&m.matrix.front()) : nullptr;
+  if (m.matrix.size() == 1) return std::get_if<Term>(&m.matrix.front());
+  return nullptr;
 }
 
 std::string number(double x) { return fmt::format("{:.10g}", x); }
@@ -112,8 +113,11 @@ Card abaqus(const Material& m) {
     law = holzapfel(m);
   }
   card.exists = !law.empty();
-  card.text = card.exists ? fmt::format("** {}\n*MATERIAL, NAME=LANGER\n{}", units, law)
-                          : "** " + note("Abaqus", beyond.first, beyond.second) + "\n";
+  if (card.exists) {
+    card.text = fmt::format("** {}\n*MATERIAL, NAME=LANGER\n{}", units, law);
+  } else {
+    card.text = "** " + note("Abaqus", beyond.first, beyond.second) + "\n";
+  }
   return card;
 }
 
@@ -170,7 +174,10 @@ std::string ansys_isotropic(const Material& m) {
   if (const auto* t = only<Ogden>(m); t && ogden_parts(*t) > 0) {
     std::vector<double> constants;
     for (const auto& [mu, alpha] : t->parts())
-      if (mu != 0 && alpha != 0) constants.push_back(mu), constants.push_back(alpha);
+      if (mu != 0 && alpha != 0) {
+        constants.push_back(mu);
+        constants.push_back(alpha);
+      }
     constants.push_back(d);
     return table("OGDEN", ogden_parts(*t), constants);
   }
@@ -233,8 +240,11 @@ Card ansys(const Material& m) {
     law = ansys_fibres(m, *polynomial(m));
   }
   card.exists = !law.empty();
-  card.text = card.exists ? fmt::format("! {}\n{}", units, law)
-                          : "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
+  if (card.exists) {
+    card.text = fmt::format("! {}\n{}", units, law);
+  } else {
+    card.text = "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
+  }
   return card;
 }
 
@@ -283,7 +293,8 @@ void add_branches(const Material& m, const std::vector<ViscousBranch>& branches,
 std::vector<Card> viscous_cards(const Material& m) {
   const std::vector<ViscousBranch> branches = branches_of(m);
   Material law = m;
-  law.viscous.reset(), law.spectrum.reset();
+  law.viscous.reset();
+  law.spectrum.reset();
   std::vector<Card> all{abaqus(law), ansys(law), febio(law), calculix(law)};
   std::string pairs;
   for (std::size_t i = 0; i < branches.size(); ++i)

@@ -116,7 +116,8 @@ class CalculixWriter {
     s_ += "*NODE, NSET=BODY\n";
     for (int n = 0; n < mesh_.n_nodes(); ++n)
       if (used[n]) node(n + 1, mesh_.X[n]);
-    next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
+    next_node_ = mesh_.n_nodes() + 1;
+    next_cell_ = mesh_.n_cells() + 1;
     laws();
     for (const auto& [name, nodes] : mesh_.node_sets) {
       std::vector<int> numbers;
@@ -139,8 +140,8 @@ class CalculixWriter {
     for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
       const FibreGroup& group = deck_.groups[g];
       const Material& m = deck_.materials[group.body];
-      const std::string set = fmt::format("CELLS{}", g + 1),
-                        name = fmt::format("LAW{}", group.body + 1);
+      const std::string set = fmt::format("CELLS{}", g + 1);
+      const std::string name = fmt::format("LAW{}", group.body + 1);
       s_ += fmt::format("*ELEMENT, TYPE=C3D20R, ELSET={}\n", set);
       for (int e : group.cells) {
         s_ += std::to_string(e + 1);
@@ -160,9 +161,10 @@ class CalculixWriter {
         section += fmt::format(", ORIENTATION=FIBRES{}", g + 1);
       }
       sections += section + "\n";
-      if (law_of_body[group.body].empty())
-        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name)),
+      if (law_of_body[group.body].empty()) {
+        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name));
         components[group.body] = in_frame;
+      }
       for (std::size_t k = 0; k < in_frame.size(); ++k)
         if ((in_frame[k] - components[group.body][k]).norm() > 1e-6)
           held_by("CalculiX", {"", "fibre families whose angle to each other varies",
@@ -173,12 +175,15 @@ class CalculixWriter {
   }
 
   void contact(const DeckContact& c, int number) {
-    const std::string name = name_of(c.law.name), slave = fmt::format("SLAVE{}", number + 1),
-                      master = fmt::format("MASTER{}", number + 1);
+    const std::string name = name_of(c.law.name);
+    const std::string slave = fmt::format("SLAVE{}", number + 1);
+    const std::string master = fmt::format("MASTER{}", number + 1);
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
     for (const Facet& f : c.facets)
       s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
-    const int n = static_cast<int>(c.cap.outer.size()), first = next_node_, first_cell = next_cell_;
+    const int n = static_cast<int>(c.cap.outer.size());
+    const int first = next_node_;
+    const int first_cell = next_cell_;
     s_ += fmt::format("** {}: rigid facets of {:.3g} mm\n*NODE, NSET=RIGID_{}\n", name, c.cap.side,
                       name);
     for (int i = 0; i < n; ++i) node(first + i, c.cap.inner[i]);
@@ -236,9 +241,10 @@ class CalculixWriter {
       }
       std::vector<std::string> printed;
       for (const HeldSet& h : deck_.held)
-        if (std::find(printed.begin(), printed.end(), h.set) == printed.end())
-          printed.push_back(h.set),
-              asked += fmt::format("*NODE PRINT, NSET={}, TOTALS=ONLY\nRF\n", h.set);
+        if (std::find(printed.begin(), printed.end(), h.set) == printed.end()) {
+          printed.push_back(h.set);
+          asked += fmt::format("*NODE PRINT, NSET={}, TOTALS=ONLY\nRF\n", h.set);
+        }
       s_ += "*BOUNDARY\n" + moved + asked +
             "*NODE FILE, FREQUENCY=100000\nU\n*EL FILE, FREQUENCY=100000\nS\n*END STEP\n";
       before = t;

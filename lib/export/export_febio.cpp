@@ -114,7 +114,8 @@ class FebioWriter {
     for (int n = 0; n < mesh_.n_nodes(); ++n)
       nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", n + 1, triple(mesh_.X[n]));
     nodes_ += "    </Nodes>\n";
-    next_node_ = mesh_.n_nodes() + 1, next_cell_ = mesh_.n_cells() + 1;
+    next_node_ = mesh_.n_nodes() + 1;
+    next_cell_ = mesh_.n_cells() + 1;
     const CellNames& type = mesh_.cell().names;
     for (std::size_t g = 0; g < deck_.groups.size(); ++g) {
       const std::string name = fmt::format("cells{}", g + 1);
@@ -200,7 +201,8 @@ class FebioWriter {
 
   // Cells between the two layers of the indenter's cap; returns the facets of the outer one.
   std::string rigid_cells(const DeckContact& c, const std::string& name) {
-    const int n = static_cast<int>(c.cap.outer.size()), first = next_node_;
+    const int n = static_cast<int>(c.cap.outer.size());
+    const int first = next_node_;
     nodes_ += fmt::format("    <Nodes name=\"{}\">\n", name);
     for (int i = 0; i < n; ++i)
       nodes_ += fmt::format("      <node id=\"{}\">{}</node>\n", first + i, triple(c.cap.inner[i]));

@@ -43,10 +43,16 @@ Spot spot(const Vec3& X) { return {X[0], X[1], X[2]}; }
 SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   SolveConfig config =
       read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
-  config.fibre_angles.clear(), config.fibre_field.reset(), config.materials.clear();
+  config.fibre_angles.clear();
+  config.fibre_field.reset();
+  config.materials.clear();
   for (std::size_t b = 0; b < header.mesh.bodies.size(); ++b) {
     BodyConfig body;
-    body.material = header.materials.empty() ? header.material : header.materials[b];
+    if (header.materials.empty()) {
+      body.material = header.material;
+    } else {
+      body.material = header.materials[b];
+    }
     config.materials[header.mesh.bodies[b]] = body;
   }
   for (std::size_t i = 0; i < config.loads.size(); ++i)
@@ -95,14 +101,18 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const int body = mesh.body.empty() ? 0 : mesh.body[e];
+    int body = mesh.body[e];
+    if (mesh.body.empty()) body = 0;
     const Material& law = scene.materials[body];
     const std::vector<Vec3> fibres = acting(law, scene.directions.of(e));
     std::pair<int, std::vector<long long>> key{body, {}};
     for (const Vec3& a : fibres)
       for (int k = 0; k < 3; ++k) key.second.push_back(std::llround(1e9 * a[k]));
     FibreGroup& group = groups[key];
-    if (group.cells.empty()) group.body = body, group.fibres = fibres;
+    if (group.cells.empty()) {
+      group.body = body;
+      group.fibres = fibres;
+    }
     group.cells.push_back(e);
   }
   std::vector<FibreGroup> list;
@@ -118,7 +128,8 @@ std::vector<Facet> outer_facets(const Mesh& mesh, const std::vector<int>& nodes)
       const auto key = facet_key(mesh, {e, f});
       if (!std::all_of(key.begin(), key.end(), [&](int n) { return may.count(n) > 0; })) continue;
       auto& [times, facet] = seen[key];
-      ++times, facet = {e, f};
+      ++times;
+      facet = {e, f};
     }
   std::vector<Facet> facets;
   for (const auto& [key, found] : seen)
@@ -186,7 +197,8 @@ std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
       1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
   TooStiff worst;
   for (const Material& m : deck.materials) {
-    const double mu = shear_modulus(m), ratio = bulk_modulus(m) / mu;
+    const double mu = shear_modulus(m);
+    const double ratio = bulk_modulus(m) / mu;
     if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (borne * mu)};
   }
   if (deck.contacts.empty() || worst.ratio <= borne * (1 + 1e-9)) return std::nullopt;
@@ -209,8 +221,13 @@ class DeckComposer {
         part_(exportable(found_)) {}
 
   Deck deck() {
-    deck_.mesh = part_ ? part_->mesh() : header_.mesh;
-    deck_.mesh.node_sets.clear(), deck_.mesh.facet_sets.clear();
+    if (part_) {
+      deck_.mesh = part_->mesh();
+    } else {
+      deck_.mesh = header_.mesh;
+    }
+    deck_.mesh.node_sets.clear();
+    deck_.mesh.facet_sets.clear();
     for (int n = 0; n < deck_.mesh.n_nodes(); ++n) number_[spot(deck_.mesh.X[n])] = n;
     for (const Material& m : scene().materials) deck_.materials.push_back(acting(m));
     deck_.groups = groups_of(deck_.mesh, scene());
@@ -231,7 +248,10 @@ class DeckComposer {
     scene.directions = header.directions;
     return scene;
   }
-  const Scene& scene() const { return part_ ? part_->scene() : whole_; }
+  const Scene& scene() const {
+    if (part_) return part_->scene();
+    return whole_;
+  }
 
   // Nodes of a set of the whole body in what is written; false where none of them is.
   bool name_set(const std::string& set) {
@@ -268,7 +288,8 @@ class DeckComposer {
         if (scene().dofs.tie[n].T(k, k) == 0) plane.push_back(n);
       if (plane.empty()) continue;
       const std::string name = free_name(fmt::format("mirror_{}", "xyz"[k]));
-      deck_.mesh.node_sets[name] = plane, deck_.held.push_back({name, k, {}});
+      deck_.mesh.node_sets[name] = plane;
+      deck_.held.push_back({name, k, {}});
     }
   }
 
@@ -297,7 +318,8 @@ class DeckComposer {
   void take_increments() {
     const LoadPathOptions& increments = config_.path;
     deck_.first = increments.first_increment();
-    deck_.largest = increments.largest_increment(), deck_.smallest = increments.smallest;
+    deck_.largest = increments.largest_increment();
+    deck_.smallest = increments.smallest;
     std::set<double> stops(scene().stops.begin(), scene().stops.end());
     stops.insert(1.0);
     deck_.stops.assign(stops.begin(), stops.end());

@@ -35,7 +35,9 @@ std::string axes(const Vec3& a, const Vec3& d) {
 // The law with the same slopes at rest: a1, a2, a3 of W(I1_bar) = sum a_i (I1_bar - 3)^i.
 std::string as_yeoh(const ArrudaBoyce& law) {
   const double step = 1e-2;
-  const Energy<double> at = law(3.0), above = law(3 + step), below = law(3 - step);
+  const Energy<double> at = law(3.0);
+  const Energy<double> above = law(3 + step);
+  const Energy<double> below = law(3 - step);
   return fmt::format("yeoh: {{a1: {:.6g}, a2: {:.6g}, a3: {:.6g}}}", at.dW, at.ddW / 2,
                      (above.ddW - below.ddW) / (12 * step));
 }
@@ -52,7 +54,8 @@ struct Matrix {
       if (!sum.add(term)) other(term);
     if (sum.I2[1] != 0 || sum.I2[2] != 0)
       lacking.push_back({"squares and cubes of (I2_bar - 3)", "yeoh_I2 with b1 alone"});
-    const bool yeoh = sum.I1[1] != 0 || sum.I1[2] != 0, mooney = !yeoh || sum.I2[0] != 0;
+    const bool yeoh = sum.I1[1] != 0 || sum.I1[2] != 0;
+    const bool mooney = !yeoh || sum.I2[0] != 0;
     if (mooney && (sum.I1[0] != 0 || sum.I2[0] != 0 || solids.empty()))
       solids.push_back({"Mooney-Rivlin", tag("c1", sum.I1[0]) + tag("c2", sum.I2[0])});
     if (yeoh)
@@ -67,8 +70,10 @@ struct Matrix {
       int i = 1;
       // c/m^2 (l_1^m + l_2^m + l_3^m - 3); alpha = 0 is no energy, since l_1 l_2 l_3 = 1
       for (const auto& [mu, alpha] : ogden->parts())
-        if (mu != 0 && alpha != 0)
-          s += tag(fmt::format("c{}", i), mu * alpha) + tag(fmt::format("m{}", i), alpha), ++i;
+        if (mu != 0 && alpha != 0) {
+          s += tag(fmt::format("c{}", i), mu * alpha) + tag(fmt::format("m{}", i), alpha);
+          ++i;
+        }
       if (!s.empty()) solids.push_back({"Ogden", s});
     } else if (const auto* gent = std::get_if<Gent>(&term)) {
       solids.push_back({"Gent", tag("G", gent->mu) + tag("Jm", gent->Jm)});
@@ -130,7 +135,8 @@ std::string dispersed(const Material& m, const std::vector<Vec3>& fibres) {
   if (!p || !p->neo_hookean() || p->I1[0] < 0 || m.fibres.empty()) return "";
   if (!beyond_hgo(m).first.empty()) return "";
   const Fibre& f = m.fibres[0];
-  const HgoFibre law = *as_hgo(f), last = *as_hgo(m.fibres.back());
+  const HgoFibre law = *as_hgo(f);
+  const HgoFibre last = *as_hgo(m.fibres.back());
   const bool two = m.fibres.size() == 2;
   const bool alike = two && law.c1 == last.c1 && law.c2 == last.c2 && f.kappa == m.fibres[1].kappa;
   if (f.kappa == 0 || (m.fibres.size() > 1 && !alike)) return "";

@@ -44,7 +44,8 @@ enum class VolumeTerm { quadratic, simo_taylor };
 // 2/kappa [1/MPa]: the d or D of other programs
 inline double compressibility(const Volume& volume) {
   const auto* quadratic = std::get_if<QuadraticVolume>(&volume);
-  return quadratic ? quadratic->d : 2 / bulk_modulus(volume);
+  if (quadratic) return quadratic->d;
+  return 2 / bulk_modulus(volume);
 }
 
 // of a program that has this term: a quadratic one is written as either, since its bulk modulus is
@@ -53,10 +54,12 @@ inline LacksAndNearest beyond_volume(const Volume& volume, VolumeTerm theirs) {
   if (std::holds_alternative<QuadraticVolume>(volume)) return {};
   if (theirs == VolumeTerm::simo_taylor && std::holds_alternative<SimoTaylorVolume>(volume))
     return {};
-  const std::string nearest =
-      theirs == VolumeTerm::quadratic
-          ? fmt::format("volume: {{quadratic: {{d: {:g}}}}}", compressibility(volume))
-          : fmt::format("volume: {{simo_taylor: {{bulk_modulus: {:g}}}}}", bulk_modulus(volume));
+  std::string nearest;
+  if (theirs == VolumeTerm::quadratic) {
+    nearest = fmt::format("volume: {{quadratic: {{d: {:g}}}}}", compressibility(volume));
+  } else {
+    nearest = fmt::format("volume: {{simo_taylor: {{bulk_modulus: {:g}}}}}", bulk_modulus(volume));
+  }
   return {fmt::format("volume: {} with this law",
                       std::visit([](const auto& law) { return law.key; }, volume)),
           nearest + ", of the same bulk modulus; or FEBio"};

@@ -15,15 +15,22 @@ struct Polynomial {
   bool add(const MatrixTerm& term) {  // false: no polynomial
     if (const auto* t = std::get_if<NeoHooke>(&term))
       I1[0] += t->a1;
-    else if (const auto* t = std::get_if<Yeoh>(&term))
-      I1[0] += t->a1, I1[1] += t->a2, I1[2] += t->a3;
-    else if (const auto* t = std::get_if<YeohI2>(&term))
-      I2[0] += t->b1, I2[1] += t->b2, I2[2] += t->b3;
-    else if (const auto* t = std::get_if<MooneyRivlin>(&term))
-      I1[0] += t->c10, I2[0] += t->c01;
-    else if (const auto* t = std::get_if<Signorini>(&term))
-      I1[0] += t->c10, I1[1] += t->c20, I2[0] += t->c01;
-    else
+    else if (const auto* t = std::get_if<Yeoh>(&term)) {
+      I1[0] += t->a1;
+      I1[1] += t->a2;
+      I1[2] += t->a3;
+    } else if (const auto* t = std::get_if<YeohI2>(&term)) {
+      I2[0] += t->b1;
+      I2[1] += t->b2;
+      I2[2] += t->b3;
+    } else if (const auto* t = std::get_if<MooneyRivlin>(&term)) {
+      I1[0] += t->c10;
+      I2[0] += t->c01;
+    } else if (const auto* t = std::get_if<Signorini>(&term)) {
+      I1[0] += t->c10;
+      I1[1] += t->c20;
+      I2[0] += t->c01;
+    } else
       return false;
     return true;
   }

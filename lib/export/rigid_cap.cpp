@@ -10,17 +10,21 @@ namespace langer {
 RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side) {
   const Vec3 centre = vec(sphere.centre);
-  const double R = sphere.radius, degree = std::numbers::pi / 180;
+  const double R = sphere.radius;
+  const double degree = std::numbers::pi / 180;
   int axis = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(towards[k]) < std::abs(towards[axis])) axis = k;
-  const Vec3 e1 = (Vec3::Unit(axis) - towards[axis] * towards).normalized(), e2 = towards.cross(e1);
+  const Vec3 e1 = (Vec3::Unit(axis) - towards[axis] * towards).normalized();
+  const Vec3 e2 = towards.cross(e1);
 
   Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
   double farthest = 0;
   for (const Vec3& x : places) {
     const Eigen::Vector2d p((x - centre).dot(e1), (x - centre).dot(e2));
-    low = low.cwiseMin(p), high = high.cwiseMax(p), farthest = std::max(farthest, p.norm());
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    farthest = std::max(farthest, p.norm());
   }
   const double margin = 0.1 * R + side;
   const double rim =
@@ -36,7 +40,8 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
   for (int j = -n; j <= n; ++j)
     for (int i = -n; i <= n; ++i) {
       const Eigen::Vector2d q(static_cast<double>(i) / n, static_cast<double>(j) / n);
-      const double r = q.cwiseAbs().maxCoeff(), round = 0.5 * r;
+      const double r = q.cwiseAbs().maxCoeff();
+      const double round = 0.5 * r;
       if (r == 0) {
         direction.push_back(towards);
         continue;
@@ -53,7 +58,8 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
       Eigen::Vector2d least(1e300, 1e300), most(-1e300, -1e300);
       for (int c : corners) {
         const Eigen::Vector2d p(R * direction[c].dot(e1), R * direction[c].dot(e2));
-        least = least.cwiseMin(p), most = most.cwiseMax(p);
+        least = least.cwiseMin(p);
+        most = most.cwiseMax(p);
       }
       if ((least.array() > high.array() + margin).any() ||
           (most.array() < low.array() - margin).any())

@@ -34,12 +34,27 @@ inline Vec6 voigt_strain(const Mat3& E) {
 // (A o A)_ijkl = (A_ik A_jl + A_il A_jk) / 2, the tensor with  -A o A = dA^-1/dA  for A = C^-1
 // A symmetric. Written out: this stands in the innermost loop of every tangent.
 inline Mat6 symmetric_product(const Mat3& A) {
-  const double a = A(0, 0), b = A(1, 1), c = A(2, 2), d = A(0, 1), e = A(1, 2), f = A(0, 2);
-  const double ad = a * d, af = a * f, bd = b * d, be = b * e, ce = c * e, cf = c * f, de = d * e,
-               df = d * f, ef = e * f;
-  const double p33 = 0.5 * (a * b + d * d), p44 = 0.5 * (b * c + e * e),
-               p55 = 0.5 * (a * c + f * f);
-  const double p34 = 0.5 * (de + b * f), p35 = 0.5 * (df + a * e), p45 = 0.5 * (ef + c * d);
+  const double a = A(0, 0);
+  const double b = A(1, 1);
+  const double c = A(2, 2);
+  const double d = A(0, 1);
+  const double e = A(1, 2);
+  const double f = A(0, 2);
+  const double ad = a * d;
+  const double af = a * f;
+  const double bd = b * d;
+  const double be = b * e;
+  const double ce = c * e;
+  const double cf = c * f;
+  const double de = d * e;
+  const double df = d * f;
+  const double ef = e * f;
+  const double p33 = 0.5 * (a * b + d * d);
+  const double p44 = 0.5 * (b * c + e * e);
+  const double p55 = 0.5 * (a * c + f * f);
+  const double p34 = 0.5 * (de + b * f);
+  const double p35 = 0.5 * (df + a * e);
+  const double p45 = 0.5 * (ef + c * d);
   Mat6 P;
   P << a * a, d * d, f * f, ad, df, af,  //
       d * d, b * b, e * e, bd, be, de,   //

@@ -23,7 +23,7 @@ MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper
   // each parameter starts in the lower half and goes up, or in the upper half and goes down
   VecX x(k), to(k);
   for (Eigen::Index i = 0; i < k; ++i) {
-    x[i] = static_cast<double>(random.below(static_cast<std::uint64_t>(half))) / (levels - 1.),
+    x[i] = static_cast<double>(random.below(static_cast<std::uint64_t>(half))) / (levels - 1.);
     to[i] = x[i] + Delta;
     if (random.below(2)) std::swap(x[i], to[i]);
   }
@@ -53,8 +53,10 @@ Moments moments(const std::vector<MatX>& all, Pick pick) {
   Moments m;
   const auto n = static_cast<double>(all.size());
   m.mu = m.mu_star = m.sigma = MatX::Zero(all[0].rows(), all[0].cols());
-  for (std::size_t r = 0; r < all.size(); ++r)
-    m.mu += all[pick(r)] / n, m.mu_star += all[pick(r)].cwiseAbs() / n;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    m.mu += all[pick(r)] / n;
+    m.mu_star += all[pick(r)].cwiseAbs() / n;
+  }
   for (std::size_t r = 0; r < all.size(); ++r)
     m.sigma += (all[pick(r)] - m.mu).cwiseAbs2() / (n - 1);
   m.sigma = m.sigma.cwiseSqrt();
@@ -105,11 +107,14 @@ Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int
     std::vector<std::size_t> picked(all.size());
     for (std::size_t& p : picked) p = random.below(all.size());
     const Moments one = moments(all, [&](std::size_t r) { return picked[r]; });
-    mu.add(one.mu), mu_star.add(one.mu_star), sigma.add(one.sigma);
-    group_mu_star.add(means(one.mu_star, options.groups)),
-        group_sigma.add(means(one.sigma, options.groups));
+    mu.add(one.mu);
+    mu_star.add(one.mu_star);
+    sigma.add(one.sigma);
+    group_mu_star.add(means(one.mu_star, options.groups));
+    group_sigma.add(means(one.sigma, options.groups));
   }
-  result.mu = mu.around(best.mu), result.mu_star = mu_star.around(best.mu_star),
+  result.mu = mu.around(best.mu);
+  result.mu_star = mu_star.around(best.mu_star);
   result.sigma = sigma.around(best.sigma);
   result.group_mu_star = group_mu_star.around(means(best.mu_star, options.groups));
   result.group_sigma = group_sigma.around(means(best.sigma, options.groups));

@@ -9,11 +9,17 @@ OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const Ve
                          const VecX& upper, int n) {
   OneAtATime result;
   for (Eigen::Index j = 0; j < value.size(); ++j) {
-    VecX p = value, before, after;
+    VecX p = value;
+    VecX before;
+    VecX after;
     const double step = (upper[j] - lower[j]) / n;
     MatX d;  // (points, n)
     for (int i = 0; i <= n; ++i) {
-      p[j] = i < n ? lower[j] + i * step : upper[j];
+      if (i < n) {
+        p[j] = lower[j] + i * step;
+      } else {
+        p[j] = upper[j];
+      }
       if (!phi(p, after) || !after.allFinite()) {
         result.missing = p;
         return result;
@@ -26,7 +32,8 @@ OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const Ve
       result.mu_star.resize(value.size(), d.rows());
       result.s = result.spread = result.mu_star;
     }
-    const VecX mu_star = d.cwiseAbs().rowwise().mean(), mean = d.rowwise().mean();
+    const VecX mu_star = d.cwiseAbs().rowwise().mean();
+    const VecX mean = d.rowwise().mean();
     result.mu_star.row(j) = mu_star;
     result.s.row(j) = ((d.colwise() - mu_star).rowwise().squaredNorm() / (n - 1)).cwiseSqrt();
     result.spread.row(j) = ((d.colwise() - mean).rowwise().squaredNorm() / (n - 1)).cwiseSqrt();
@@ -46,10 +53,16 @@ MatX zone_means(const MatX& of, const std::vector<double>& x, const std::vector<
     VecX sum = VecX::Zero(of.rows());
     int points = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (inside(x[i], zones[z])) sum += of.col(static_cast<Eigen::Index>(i)), ++points;
-    means.col(static_cast<Eigen::Index>(z)) =
-        points ? VecX(sum / points)
-               : VecX::Constant(of.rows(), std::numeric_limits<double>::quiet_NaN());
+      if (inside(x[i], zones[z])) {
+        sum += of.col(static_cast<Eigen::Index>(i));
+        ++points;
+      }
+    if (points) {
+      means.col(static_cast<Eigen::Index>(z)) = VecX(sum / points);
+    } else {
+      means.col(static_cast<Eigen::Index>(z)) =
+          VecX::Constant(of.rows(), std::numeric_limits<double>::quiet_NaN());
+    }
   }
   return means;
 }

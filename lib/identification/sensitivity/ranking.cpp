@@ -47,14 +47,16 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
           if (f.name == n.name) return &f;
       return nullptr;
     }();
-    if (p.lower)
-      n.lower = *p.lower, n.upper = *p.upper;
-    else if (p.around)
-      n.lower = n.value - *p.around * std::abs(n.value),
+    if (p.lower) {
+      n.lower = *p.lower;
+      n.upper = *p.upper;
+    } else if (p.around) {
+      n.lower = n.value - *p.around * std::abs(n.value);
       n.upper = n.value + *p.around * std::abs(n.value);
-    else if (fitted)
-      n.lower = fitted->lower, n.upper = fitted->upper;
-    else
+    } else if (fitted) {
+      n.lower = fitted->lower;
+      n.upper = fitted->upper;
+    } else
       say(at, p.key + " has no bounds, and the material comes from no fit of it",
           "lower and upper, or around");
     if ((p.lower || p.around || fitted) && !(n.lower < n.upper))

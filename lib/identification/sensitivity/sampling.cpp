@@ -27,7 +27,8 @@ Estimate Resamples::around(const MatX& value) const {
       for (const MatX& one : all_)
         if (std::isfinite(one(i, j))) sorted.push_back(one(i, j));
       std::sort(sorted.begin(), sorted.end());
-      e.low(i, j) = quantile(sorted, 0.025), e.high(i, j) = quantile(sorted, 0.975);
+      e.low(i, j) = quantile(sorted, 0.025);
+      e.high(i, j) = quantile(sorted, 0.975);
     }
   return e;
 }

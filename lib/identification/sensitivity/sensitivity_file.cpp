@@ -56,8 +56,8 @@ std::string effect_unit(const std::string& parameter_unit) {
 }
 
 std::vector<Summary> summary_of(const SensitivityRecord& r) {
-  const MatX mu_star = zone_means(r.effects.mu_star, r.strain, r.zones),
-             s = zone_means(r.effects.s, r.strain, r.zones);
+  const MatX mu_star = zone_means(r.effects.mu_star, r.strain, r.zones);
+  const MatX s = zone_means(r.effects.s, r.strain, r.zones);
   std::vector<Summary> all;
   for (std::size_t j = 0; j < r.parameters.size(); ++j)
     for (std::size_t z = 0; z < r.zones.size(); ++z) {
@@ -72,12 +72,14 @@ std::vector<Summary> summary_of(const SensitivityRecord& r) {
         all.push_back(
             {fmt::format("{}_{}_zone{}", what, r.parameters[j].name, z + 1), row(A, j)[z], unit});
   };
-  if (r.morris)
-    add("morris_mu_star", r.morris->group_mu_star.value, "MPa"),
-        add("morris_sigma", r.morris->group_sigma.value, "MPa");
-  if (r.sobol)
-    add("sobol_first", r.sobol->group_first.value, "-"),
-        add("sobol_total", r.sobol->group_total.value, "-");
+  if (r.morris) {
+    add("morris_mu_star", r.morris->group_mu_star.value, "MPa");
+    add("morris_sigma", r.morris->group_sigma.value, "MPa");
+  }
+  if (r.sobol) {
+    add("sobol_first", r.sobol->group_first.value, "-");
+    add("sobol_total", r.sobol->group_total.value, "-");
+  }
   return all;
 }
 
@@ -108,7 +110,10 @@ void write_sensitivity(const std::string& path, const SensitivityRecord& r,
   write_effects(root, [](const MatX& A) { return A; });
   const h5::Group zones = root.make_group("zones");
   std::vector<double> from, to;
-  for (const Zone& z : r.zones) from.push_back(z.from), to.push_back(z.to);
+  for (const Zone& z : r.zones) {
+    from.push_back(z.from);
+    to.push_back(z.to);
+  }
   zones.write<double>("from", {from.size()}, from, "-");
   zones.write<double>("to", {to.size()}, to, "-");
   write_effects(zones, [&](const MatX& A) { return zone_means(A, r.strain, r.zones); });

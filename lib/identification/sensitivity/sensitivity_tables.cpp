@@ -39,8 +39,11 @@ std::string zones_csv(const SensitivityRecord& r) {
   const auto of = [&](const MatX& A) {
     return zone_means(A, r.strain, r.zones);
   };
-  const MatX mu_star = of(r.effects.mu_star), s = of(r.effects.s), spread = of(r.effects.spread);
-  const MatX range = over_range(r, mu_star), spread_range = over_range(r, spread);
+  const MatX mu_star = of(r.effects.mu_star);
+  const MatX s = of(r.effects.s);
+  const MatX spread = of(r.effects.spread);
+  const MatX range = over_range(r, mu_star);
+  const MatX spread_range = over_range(r, spread);
   std::vector<std::pair<std::string, MatX>> more;
   const auto add = [&](const std::string& name, const std::string& unit, const Estimate& e) {
     more.push_back({csv_name(name, unit), e.value});
@@ -48,11 +51,14 @@ std::string zones_csv(const SensitivityRecord& r) {
     more.push_back({csv_name(name + "_high", unit), e.high});
   };
   more.push_back({"spread_range_MPa", spread_range});
-  if (r.morris)
-    add("morris_mu_star", "MPa", r.morris->group_mu_star),
-        add("morris_sigma", "MPa", r.morris->group_sigma);
-  if (r.sobol)
-    add("sobol_first", "-", r.sobol->group_first), add("sobol_total", "-", r.sobol->group_total);
+  if (r.morris) {
+    add("morris_mu_star", "MPa", r.morris->group_mu_star);
+    add("morris_sigma", "MPa", r.morris->group_sigma);
+  }
+  if (r.sobol) {
+    add("sobol_first", "-", r.sobol->group_first);
+    add("sobol_total", "-", r.sobol->group_total);
+  }
   std::string text = "parameter,zone,strain_from,strain_to,mu_star,s,spread,unit,mu_star_range_MPa";
   for (const auto& [name, A] : more) text += "," + name;
   text += "\n";
@@ -141,7 +147,8 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
     const std::size_t z = r.zones.size() - 1;
     std::vector<std::string> words;
     for (std::size_t j = 0; j < r.parameters.size(); ++j) {
-      const double sigma = row(r.morris->group_sigma.low, j)[z], seen = row(spread, j)[z];
+      const double sigma = row(r.morris->group_sigma.low, j)[z];
+      const double seen = row(spread, j)[z];
       if (sigma > 2 * seen &&
           sigma > 0.05 * r.morris->group_mu_star.value.col(static_cast<Eigen::Index>(z)).maxCoeff())
         words.push_back(fmt::format("{} (spread {:.2g} MPa one at a time, sigma at least {:.2g})",

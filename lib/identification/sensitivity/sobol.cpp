@@ -27,8 +27,17 @@ struct Sums {
     M = BM = D = MatX::Zero(m, k);
   }
   void operator+=(const Sums& s) {
-    n += s.n, missing += s.missing, curves += s.curves;
-    A += s.A, B += s.B, AA += s.AA, BB += s.BB, BA += s.BA, M += s.M, BM += s.BM, D += s.D;
+    n += s.n;
+    missing += s.missing;
+    curves += s.curves;
+    A += s.A;
+    B += s.B;
+    AA += s.AA;
+    BB += s.BB;
+    BA += s.BA;
+    M += s.M;
+    BM += s.BM;
+    D += s.D;
   }
 };
 
@@ -50,19 +59,27 @@ Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
   const auto ratio = [](double x, double V) {
     return V > 0 ? x / V : std::numeric_limits<double>::quiet_NaN();
   };
-  const auto m = part.rows(), k = part.cols(), z = static_cast<Eigen::Index>(groups.size());
-  r.first.resize(k, m), r.total.resize(k, m), r.group_first.resize(k, z),
-      r.group_total.resize(k, z);
+  const auto m = part.rows();
+  const auto k = part.cols();
+  const auto z = static_cast<Eigen::Index>(groups.size());
+  r.first.resize(k, m);
+  r.total.resize(k, m);
+  r.group_first.resize(k, z);
+  r.group_total.resize(k, z);
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < m; ++j) {
-      r.first(i, j) = ratio(part(j, i), r.variance[j]),
-                 r.total(i, j) = ratio(rest(j, i), r.variance[j]);
+      r.first(i, j) = ratio(part(j, i), r.variance[j]);
+      r.total(i, j) = ratio(rest(j, i), r.variance[j]);
     }
     for (Eigen::Index g = 0; g < z; ++g) {
       double first = 0, total = 0, V = 0;
-      for (int j : groups[static_cast<std::size_t>(g)])
-        first += part(j, i), total += rest(j, i), V += r.variance[j];
-      r.group_first(i, g) = ratio(first, V), r.group_total(i, g) = ratio(total, V);
+      for (int j : groups[static_cast<std::size_t>(g)]) {
+        first += part(j, i);
+        total += rest(j, i);
+        V += r.variance[j];
+      }
+      r.group_first(i, g) = ratio(first, V);
+      r.group_total(i, g) = ratio(total, V);
     }
   }
   return r;
@@ -78,7 +95,8 @@ VecX independent(Eigen::Index size, Random random) {
 void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower,
              const VecX& range, const VecX& u) {
   const auto k = lower.size();
-  VecX a = lower + u.head(k).cwiseProduct(range), b = lower + u.tail(k).cwiseProduct(range);
+  VecX a = lower + u.head(k).cwiseProduct(range);
+  VecX b = lower + u.tail(k).cwiseProduct(range);
   const auto curve = [&](const VecX& p, VecX& y) {
     ++sums.curves;
     if (!phi(p, y) || !y.allFinite()) return false;
@@ -99,8 +117,11 @@ void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const V
     return;
   }
   sums.n += 1;
-  sums.A += y_A, sums.B += y_B, sums.AA += y_A.cwiseAbs2(), sums.BB += y_B.cwiseAbs2(),
-      sums.BA += y_B.cwiseProduct(y_A);
+  sums.A += y_A;
+  sums.B += y_B;
+  sums.AA += y_A.cwiseAbs2();
+  sums.BB += y_B.cwiseAbs2();
+  sums.BA += y_B.cwiseProduct(y_A);
   sums.M += mixed;
   sums.BM.array() += mixed.array().colwise() * y_B.array();
   sums.D += (mixed.colwise() - y_A).cwiseAbs2();
@@ -124,7 +145,8 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
   in_order(
       threads, n_blocks,
       [&](int worker, int block) {
-        const long from = n * block / n_blocks, to = n * (block + 1) / n_blocks;
+        const long from = n * block / n_blocks;
+        const long to = n * (block + 1) / n_blocks;
         std::optional<SobolSequence> sequence;
         if (!random_rows)
           sequence.emplace(2 * k, Random(options.seed, 1ull << 41),
@@ -142,11 +164,13 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
       });
   Sums all(k, middle.size());
   for (const Sums& s : blocks) all += s;
-  result.rows = static_cast<long>(all.n), result.without_curve = all.missing,
+  result.rows = static_cast<long>(all.n);
+  result.without_curve = all.missing;
   result.curves = all.curves;
   if (all.n < 2) return result;
   const Shares best = shares(all, options.groups);
-  result.mean = best.mean + middle, result.deviation = best.variance.cwiseSqrt();
+  result.mean = best.mean + middle;
+  result.deviation = best.variance.cwiseSqrt();
   Resamples first, total, group_first, group_total;
   for (int r = 0; r < options.resamples; ++r) {
     Random random(options.seed, (1ull << 40) + static_cast<std::uint64_t>(r));
@@ -154,11 +178,14 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
     for (int b = 0; b < n_blocks; ++b) sums += blocks[random.below(n_blocks)];
     if (sums.n < 2) continue;
     const Shares one = shares(sums, options.groups);
-    first.add(one.first), total.add(one.total), group_first.add(one.group_first),
-        group_total.add(one.group_total);
+    first.add(one.first);
+    total.add(one.total);
+    group_first.add(one.group_first);
+    group_total.add(one.group_total);
   }
-  result.first = first.around(best.first), result.total = total.around(best.total);
-  result.group_first = group_first.around(best.group_first),
+  result.first = first.around(best.first);
+  result.total = total.around(best.total);
+  result.group_first = group_first.around(best.group_first);
   result.group_total = group_total.around(best.group_total);
   return result;
 }

@@ -26,7 +26,11 @@ Adhesive adhesive(const Adhesion& law, const ShapePoint& shape, const Vec3& v, c
              heals = law.healing && bond.beta < 1 && bond.beta * s < law.work;
   if ((loosens || heals) && std::isfinite(viscous)) {
     const double towards = viscous * bond.beta + law.work;
-    out.beta = towards < viscous + s ? towards / (viscous + s) : 1;
+    if (towards < viscous + s) {
+      out.beta = towards / (viscous + s);
+    } else {
+      out.beta = 1;
+    }
     if (out.beta < 1) softening = 1 / (viscous + s);
   }
   out.force = -0.5 * out.beta * out.beta * ds;

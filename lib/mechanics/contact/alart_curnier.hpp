@@ -14,12 +14,15 @@ class AlartCurnier {
   AlartCurnier(const Vec3& r, const Vec3& x, double rho, double mu) : mu_(mu) {
     const double A = r[0] - rho * x[0];
     if (A <= 0) {
-      F = r, status = ContactStatus::open;
+      F = r;
+      status = ContactStatus::open;
       return;
     }
-    F = rho * x, status = ContactStatus::stick;
+    F = rho * x;
+    status = ContactStatus::stick;
     const Eigen::Vector2d s = r.tail<2>() - rho * x.tail<2>();
-    const double radius = mu * A, size = s.norm();
+    const double radius = mu * A;
+    const double size = s.norm();
     if (size <= radius) return;
     status = ContactStatus::slip;
     direction_ = s / size;

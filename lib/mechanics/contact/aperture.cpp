@@ -17,8 +17,9 @@ ShapePoint Aperture::at(const Vec3& x) const {
   if (rho == 0)
     outward = cross(a, Vec3::Unit(std::abs(a[0]) < 0.5 ? 0 : 1))
                   .normalized();  // the whole wall is as near
-  const double side = radius + edge - rho,
-               end = edge - along;  // before the core sideways and endways
+  // before the core sideways and endways
+  const double side = radius + edge - rho;
+  const double end = edge - along;
   return round_edged({a, outward, rho, Wall::faces_axis}, side, end, edge);
 }
 
@@ -35,7 +36,8 @@ Outline Aperture::outline(const Shown& shown) const {
     const double theta = 0.5 * std::numbers::pi * i / parts;
     profile.push_back({edge * (1 - std::sin(theta)), radius + edge * (1 - std::cos(theta))});
   }
-  const double flat = radius + edge, far = std::max(0.5 * shown.size, 1.5 * flat);
+  const double flat = radius + edge;
+  const double far = std::max(0.5 * shown.size, 1.5 * flat);
   for (int i = 1; i <= 4; ++i) profile.push_back({0, flat + 0.25 * i * (far - flat)});
   return revolved(vec(face), direction(into), profile, 2 * shown.parts, false);
 }

@@ -9,7 +9,8 @@ namespace langer {
 
 Vec3 indenter_displacement(const RigidContact& contact, double t, double travel) {
   const Vec3 moved = contact.motion.empty() ? Vec3(Vec3::Zero()) : value_at(contact.motion, t);
-  return contact.control ? Vec3(moved + travel * contact.control->along) : moved;
+  if (contact.control) return Vec3(moved + travel * contact.control->along);
+  return moved;
 }
 
 Mat3 contact_frame(const Vec3& n) {
@@ -84,7 +85,8 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const bool closed = r[i].squaredNorm() > 0;
     defect.penetration = std::max(defect.penetration, closed ? std::abs(g) : -g);
     if (!closed) {
-      defect.status.push_back(ContactStatus::open), ++defect.open;
+      defect.status.push_back(ContactStatus::open);
+      ++defect.open;
       continue;
     }
     const Vec3& n = shape.normal;
@@ -94,12 +96,19 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     // no gap
     const double curved = shape.curvature.norm(),
                  far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
-    const double seen = std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far ? g : 0;
-    const double r_n = r[i].dot(n), r_t = (r[i] - r_n * n).norm(), slip = x_t.norm();
+    double seen = 0;
+    if (std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far) seen = g;
+    const double r_n = r[i].dot(n);
+    const double r_t = (r[i] - r_n * n).norm();
+    const double slip = x_t.norm();
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
     // frictionless: only the normal part does work against the law
-    const double power =
-        contact.mu > 0 ? r[i].dot(x_t) + r_n * (seen + contact.mu * slip) : r_n * seen;
+    double power = 0;
+    if (contact.mu > 0) {
+      power = r[i].dot(x_t) + r_n * (seen + contact.mu * slip);
+    } else {
+      power = r_n * seen;
+    }
     defect.complementarity =
         std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
     const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);

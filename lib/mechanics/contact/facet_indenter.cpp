@@ -20,13 +20,23 @@ struct OnTriangle {
 
 // Nearest point of a triangle by its Voronoi regions.
 OnTriangle nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
-  const Vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx),
-               d6 = ac.dot(cx);
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ax = x - a;
+  const Vec3 bx = x - b;
+  const Vec3 cx = x - c;
+  const double d1 = ab.dot(ax);
+  const double d2 = ac.dot(ax);
+  const double d3 = ab.dot(bx);
+  const double d4 = ac.dot(bx);
+  const double d5 = ab.dot(cx);
+  const double d6 = ac.dot(cx);
   if (d1 <= 0 && d2 <= 0) return {a, 2, {}};
   if (d3 >= 0 && d4 <= d3) return {b, 2, {}};
   if (d6 >= 0 && d5 <= d6) return {c, 2, {}};
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  const double vc = d1 * d4 - d3 * d2;
+  const double vb = d5 * d2 - d1 * d6;
+  const double va = d3 * d6 - d5 * d4;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return {a + d1 / (d1 - d3) * ab, 1, ab.normalized()};
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, 1, ac.normalized()};
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
@@ -51,8 +61,10 @@ int TriangleTree::build(int first, int last) {
   Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
           Vec3::Constant(-std::numeric_limits<double>::infinity()), first, last};
   for (int i = first; i < last; ++i)
-    for (int p : t_.corners[order_[i]])
-      box.low = box.low.cwiseMin(t_.points[p]), box.high = box.high.cwiseMax(t_.points[p]);
+    for (int p : t_.corners[order_[i]]) {
+      box.low = box.low.cwiseMin(t_.points[p]);
+      box.high = box.high.cwiseMax(t_.points[p]);
+    }
   const int index = static_cast<int>(boxes_.size());
   boxes_.push_back(box);
   if (last - first <= 4) return index;
@@ -66,8 +78,10 @@ int TriangleTree::build(int first, int last) {
   std::nth_element(
       order_.begin() + first, order_.begin() + middle, order_.begin() + last,
       [&](int a, int b) { return centre(a) < centre(b) || (centre(a) == centre(b) && a < b); });
-  const int left = build(first, middle), right = build(middle, last);
-  boxes_[index].left = left, boxes_[index].right = right;
+  const int left = build(first, middle);
+  const int right = build(middle, last);
+  boxes_[index].left = left;
+  boxes_[index].right = right;
   return index;
 }
 
@@ -84,8 +98,8 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
       const bool left_first =
           squared_distance_to_box(boxes_[box.left].low, boxes_[box.left].high, x) <
           squared_distance_to_box(boxes_[box.right].low, boxes_[box.right].high, x);
-      open.push_back(left_first ? box.right : box.left),
-          open.push_back(left_first ? box.left : box.right);
+      open.push_back(left_first ? box.right : box.left);
+      open.push_back(left_first ? box.left : box.right);
       continue;
     }
     for (int i = box.first; i < box.last; ++i) {
@@ -99,7 +113,8 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
       const double stands_off = std::abs((x - on.point).dot(normal));
       const bool same = distance <= best * (1 + 1e-10);
       if (distance < best * (1 - 1e-10) || (same && stands_off > steepest)) {
-        best = std::min(best, distance), steepest = stands_off;
+        best = std::min(best, distance);
+        steepest = stands_off;
         out = {on.point, (x - on.point).dot(normal) >= 0 ? 1.0 : -1.0, on.feature,
                on.feature == 0 ? normal : on.direction};
       }
@@ -157,9 +172,13 @@ Triangles coarser(const Triangles& t, int boxes) {
       box[static_cast<std::size_t>(k)] =
           static_cast<int>(std::floor((x[k] - all.min()[k]) / length));
     const auto [entry, is_new] = point_of.try_emplace(box, static_cast<int>(out.points.size()));
-    if (is_new) out.points.push_back(Vec3::Zero()), count.push_back(0);
+    if (is_new) {
+      out.points.push_back(Vec3::Zero());
+      count.push_back(0);
+    }
     place.push_back(entry->second);
-    out.points[place.back()] += x, ++count[place.back()];
+    out.points[place.back()] += x;
+    ++count[place.back()];
   }
   for (std::size_t p = 0; p < count.size(); ++p) out.points[p] /= count[p];
   std::set<std::array<int, 3>> known;
@@ -199,7 +218,8 @@ Outline with_rounded_edges(const Triangles& t, double rounding) {
     const Vec3 n = twice_the_area(t, c).normalized();
     const int first = static_cast<int>(out.points.size());
     for (int k = 0; k < 3; ++k) {
-      out.points.push_back(t.points[c[k]] + rounding * n), at_corner[c[k]].push_back(first + k);
+      out.points.push_back(t.points[c[k]] + rounding * n);
+      at_corner[c[k]].push_back(first + k);
       ends_of[{c[k], c[(k + 1) % 3]}] = {first + k, first + (k + 1) % 3};
     }
     out.faces.push_back({first, first + 1, first + 2});
@@ -213,7 +233,8 @@ Outline with_rounded_edges(const Triangles& t, double rounding) {
     Vec3 out_of = Vec3::Zero();
     for (int i : moved) out_of += out.points[i] - t.points[p];
     if (moved.size() < 3 || out_of.norm() < 1e-9 * rounding) continue;
-    const Vec3 a = out_of.unitOrthogonal(), b = out_of.normalized().cross(a);
+    const Vec3 a = out_of.unitOrthogonal();
+    const Vec3 b = out_of.normalized().cross(a);
     const auto angle = [&](int i) {
       return std::atan2(b.dot(out.points[i] - t.points[p]), a.dot(out.points[i] - t.points[p]));
     };

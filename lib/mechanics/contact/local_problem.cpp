@@ -21,7 +21,11 @@ VecX step_lengths(const LocalProblem& problem) {
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(0.5 * (W_ii + W_ii.transpose()),
                                                     Eigen::EigenvaluesOnly);
     const double largest = eigen.eigenvalues()[2];
-    rho[i] = largest > 0 ? 1.5 / largest : 1;
+    if (largest > 0) {
+      rho[i] = 1.5 / largest;
+    } else {
+      rho[i] = 1;
+    }
   }
   return rho;
 }
@@ -103,7 +107,8 @@ std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho,
   VecX step = Lu(J).solve(b);
   if (!step.allFinite() || (J * step - b).norm() > 1e-6 * b.norm())
     step = LeastNorm(J).solve(b);  // rank-deficient W: the smallest step
-  return step.allFinite() ? std::optional(step) : std::nullopt;
+  if (step.allFinite()) return std::optional(step);
+  return std::nullopt;
 }
 
 // One damped Newton step; false where no step length lowers |F|.
@@ -152,7 +157,10 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   const auto judge = [&] {
     if (diverged(r)) r = best;
     const double residual = residual_of(problem, rho, r, nullptr);
-    if (residual < least) least = residual, best = r;
+    if (residual < least) {
+      least = residual;
+      best = r;
+    }
     return residual;
   };
   int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the
@@ -180,7 +188,8 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
     if (fled && r == start) break;  // all of this would come again
     round = std::min(2 * round, options.sweeps);
   }
-  report.sweeps += sweeps, report.newton_steps += newton_steps;
+  report.sweeps += sweeps;
+  report.newton_steps += newton_steps;
   r = best;
 }
 
@@ -191,7 +200,8 @@ void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const Local
               LocalReport& report) {
   const double largest = problem.W.diagonal().maxCoeff();
   LocalOptions each = options;
-  each.sweeps = 400, each.newton_steps = 40;
+  each.sweeps = 400;
+  each.newton_steps = 40;
   VecX best = r;
   double least = residual_of(problem, rho, r, nullptr);
   for (double e = 1e-3 * largest; e > 1e-9 * largest && least > options.tolerance; e *= 0.5) {
@@ -200,7 +210,10 @@ void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const Local
     near.q -= e * r;
     alternate(near, step_lengths(near), r, each, report);
     const double residual = residual_of(problem, rho, r, nullptr);
-    if (residual < least) least = residual, best = r;
+    if (residual < least) {
+      least = residual;
+      best = r;
+    }
   }
   r = best;
 }

@@ -22,7 +22,8 @@ Outline revolved(const Vec3& origin, const Vec3& axis,
   int least = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(axis[k]) < std::abs(axis[least])) least = k;
-  const Vec3 s = (Vec3::Unit(least) - axis[least] * axis).normalized(), t = axis.cross(s);
+  const Vec3 s = (Vec3::Unit(least) - axis[least] * axis).normalized();
+  const Vec3 t = axis.cross(s);
   Outline out;
   std::vector<std::vector<int>> rings;
   for (const auto& [along, radius] : profile) {

@@ -17,8 +17,9 @@ std::vector<Complaint> Cylinder::complaints() const {
 ShapePoint Cylinder::at(const Vec3& x) const {
   const Vec3 a = direction(into);
   const auto [along, rho, outward] = about({vec(face), a}, x);
-  const double side = rho - (radius - edge),
-               end = edge - along;  // beyond the core sideways and endways
+  // beyond the core sideways and endways
+  const double side = rho - (radius - edge);
+  const double end = edge - along;
   return round_edged({a, outward, rho, Wall::faces_away}, side, end, edge);
 }
 
@@ -45,9 +46,14 @@ namespace {
 // h_i^2))^2 = 1
 Vec3 nearest(Vec3 q, const Vec3& h) {
   const double tiny = 1e-12 * h.minCoeff();
-  for (double& v : q)
-    v = std::abs(v) < tiny ? std::copysign(tiny, v)
-                           : v;  // off the planes of symmetry: one nearest point
+  for (double& v : q) {
+    // off the planes of symmetry: one nearest point
+    if (std::abs(v) < tiny) {
+      v = std::copysign(tiny, v);
+    } else {
+      v = v;
+    }
+  }
   const Vec3 hh = h.cwiseProduct(h);
   int least = 0;
   h.minCoeff(&least);
@@ -55,11 +61,13 @@ Vec3 nearest(Vec3 q, const Vec3& h) {
   const auto f = [&](double t) {
     return hq.cwiseQuotient(hh + Vec3::Constant(t)).squaredNorm() - 1;
   };
-  double low = -hh.minCoeff() + h.minCoeff() * std::abs(q[least]), high = h.maxCoeff() * q.norm();
+  double low = -hh.minCoeff() + h.minCoeff() * std::abs(q[least]);
+  double high = h.maxCoeff() * q.norm();
   if (f(low) < 0) low = -hh.minCoeff();
   double t = std::clamp(0.0, low, high);
   for (int k = 0; k < 200; ++k) {  // Newton kept inside a shrinking bracket; f falls and is convex
-    const Vec3 from = hh + Vec3::Constant(t), part = hq.cwiseQuotient(from).cwiseAbs2();
+    const Vec3 from = hh + Vec3::Constant(t);
+    const Vec3 part = hq.cwiseQuotient(from).cwiseAbs2();
     const double value = part.sum() - 1;
     (value > 0 ? low : high) = t;
     double next = t + 0.5 * value / part.cwiseQuotient(from).sum();
@@ -75,7 +83,8 @@ Vec3 nearest(Vec3 q, const Vec3& h) {
 }  // namespace
 
 ShapePoint Ellipsoid::at(const Vec3& x) const {
-  const Vec3 h = vec(half_axes), q = x - vec(centre);
+  const Vec3 h = vec(half_axes);
+  const Vec3 q = x - vec(centre);
   const Vec3 c = nearest(q, h);
   const Vec3 slope = 2 * c.cwiseQuotient(h.cwiseProduct(h));  // gradient of sum (c_i/h_i)^2
   ShapePoint p;
@@ -89,8 +98,8 @@ ShapePoint Ellipsoid::at(const Vec3& x) const {
 }
 
 bool Ellipsoid::becomes(const Ellipsoid& other, const Isometry& op) const {
-  const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal(),
-             image = vec(other.half_axes).cwiseProduct(vec(other.half_axes)).asDiagonal();
+  const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal();
+  const Mat3 image = vec(other.half_axes).cwiseProduct(vec(other.half_axes)).asDiagonal();
   return goes_to(vec(centre), vec(other.centre), op) &&
          (op.turn * H * op.turn.transpose() - image).norm() <= same_place * image.norm();
 }

@@ -22,7 +22,8 @@ ShapePoint Plane::at(const Vec3& x) const {
 }
 
 bool Plane::becomes(const Plane& other, const Isometry& op) const {
-  const Vec3 p = vec(other.point), n = direction(other.outward);
+  const Vec3 p = vec(other.point);
+  const Vec3 n = direction(other.outward);
   return turns_to(direction(outward), n, op) &&
          std::abs(n.dot(op(vec(point)) - p)) <= same_place * (1 + p.norm());
 }
@@ -39,7 +40,8 @@ Outline Sphere::outline(const Shown& shown) const {
 // a square about the middle of what is shown, and a net of lines
 Outline Plane::outline(const Shown& shown) const {
   constexpr int n = 8;
-  const Vec3 a = direction(outward), middle = shown.middle - at(shown.middle).gap * a;
+  const Vec3 a = direction(outward);
+  const Vec3 middle = shown.middle - at(shown.middle).gap * a;
   int least = 0;
   a.cwiseAbs().minCoeff(&least);
   const Vec3 s = shown.size / n * (Vec3::Unit(least) - a[least] * a).normalized();
@@ -55,9 +57,10 @@ Outline Plane::outline(const Shown& shown) const {
     for (int j = 0; j < n; ++j)
       out.faces.push_back(
           {at_grid(i, j), at_grid(i + 1, j), at_grid(i + 1, j + 1), at_grid(i, j + 1)});
-  for (int i = 0; i <= n; ++i)
-    out.lines.push_back({at_grid(i, 0), at_grid(i, n)}),
-        out.lines.push_back({at_grid(0, i), at_grid(n, i)});
+  for (int i = 0; i <= n; ++i) {
+    out.lines.push_back({at_grid(i, 0), at_grid(i, n)});
+    out.lines.push_back({at_grid(0, i), at_grid(n, i)});
+  }
   return out;
 }
 

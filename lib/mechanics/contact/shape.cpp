@@ -28,7 +28,9 @@ ShapePoint round_edged(const RoundWall& at, double side, double end, double edge
     if (end >= side) return {end - edge, -at.a, Mat3::Zero()};
     return {side - edge, off, ring(at.a, at.outward, facing, at.rho)};
   }
-  const double s = std::max(side, 0.0), e = std::max(end, 0.0), distance = std::hypot(s, e);
+  const double s = std::max(side, 0.0);
+  const double e = std::max(end, 0.0);
+  const double distance = std::hypot(s, e);
   const Vec3 n = (s * off - e * at.a) / distance;
   Mat3 curvature = ring(at.a, at.outward, facing * s / distance, at.rho);
   if (s > 0 && e > 0) {  // on the rounded edge: curved along the meridian too

@@ -18,7 +18,8 @@ struct Function {
 };
 
 Function evaluate(const SupportedProblem& p, const VecX& rho, const VecX& s, MatX* Jacobian) {
-  const VecX x = p.q + p.W * s, r = p.b + p.A * s;
+  const VecX x = p.q + p.W * s;
+  const VecX r = p.b + p.A * s;
   Function out{VecX(s.size()), {}};
   if (Jacobian) Jacobian->resize(s.size(), s.size());
   for (int i = 0; i < p.n_contacts(); ++i) {

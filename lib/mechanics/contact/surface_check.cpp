@@ -24,7 +24,8 @@ std::vector<int> front_edge(const ReferenceCell& cell, const std::vector<int>& f
   std::vector<int> edge;
   const int sides = cell.facet_corners;
   for (int k = 0; k < sides; ++k) {
-    const int a = facet[k], b = facet[(k + 1) % sides];
+    const int a = facet[k];
+    const int b = facet[(k + 1) % sides];
     if (a >= n_front || b >= n_front) continue;
     edge = {a, b};
     if (cell.second_order()) edge.push_back(facet[sides + k]);
@@ -39,12 +40,14 @@ std::vector<std::array<int, 4>> edge_pieces(const std::vector<int>& n) {
 
 double radius_of(const ShapePoint& p) {
   const double curvature = p.curvature.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-  return curvature > 0 ? std::max(0.0, 1 / curvature - p.gap)
-                       : std::numeric_limits<double>::infinity();
+  if (curvature > 0) return std::max(0.0, 1 / curvature - p.gap);
+  return std::numeric_limits<double>::infinity();
 }
 
 double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, signed
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  const double la = a.norm();
+  const double lb = b.norm();
+  const double lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)),
                         la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
@@ -52,14 +55,23 @@ double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, sign
 }  // namespace
 
 SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size(), 0) {
-  const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
+  int front = 0;
+  if (mesh.section) {
+    front = n_front(mesh);
+  } else {
+    front = mesh.n_nodes();
+  }
   std::set<int> nodes;
   for (const Facet& facet : boundary(mesh)) {
     Patch patch{facet_nodes(mesh, facet)};
     if (mesh.section) {
       const bool flat =
           std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return n < front; });
-      patch.nodes = flat ? std::vector<int>{} : front_edge(mesh.cell(), patch.nodes, front);
+      if (flat) {
+        patch.nodes = std::vector<int>{};
+      } else {
+        patch.nodes = front_edge(mesh.cell(), patch.nodes, front);
+      }
       if (patch.nodes.empty()) continue;
       patch.axis = mesh.section->of == SectionOf::axisymmetric &&
                    std::all_of(patch.nodes.begin(), patch.nodes.end(),
@@ -111,12 +123,15 @@ VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
 // the indenter is smooth across one.
 SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidContact& contact,
                                             const std::vector<Vec3>& x, const Vec3& c) const {
-  const bool line = mesh_.section.has_value(), triangle = mesh_.cell().facet_corners == 3;
+  const bool line = mesh_.section.has_value();
+  const bool triangle = mesh_.cell().facet_corners == 3;
   const double low = triangle ? 0 : -1;
   const double width = half_width(contact.shape);
   double size = 0;
   for (int n : patch.nodes) size = std::max(size, (x[n] - x[patch.nodes[0]]).norm());
-  double best_s = low, best_t = low, best = std::numeric_limits<double>::infinity();
+  double best_s = low;
+  double best_t = low;
+  double best = std::numeric_limits<double>::infinity();
   const auto at = [&](double s, double t) {
     const VecX w = weights(patch, s, t);
     Vec3 p = Vec3::Zero();
@@ -124,16 +139,26 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
     return shape_at(contact.shape, p - c);
   };
   const auto allowed = [&](double& s, double& t) {
-    s = std::clamp(s, low, 1.0), t = line ? 0 : std::clamp(t, low, 1.0);
+    s = std::clamp(s, low, 1.0);
+    if (line) {
+      t = 0;
+    } else {
+      t = std::clamp(t, low, 1.0);
+    }
     if (triangle && s + t > 1) {
       const double over = 0.5 * (s + t - 1);
-      s = std::clamp(s - over, 0.0, 1.0), t = 1 - s;
+      s = std::clamp(s - over, 0.0, 1.0);
+      t = 1 - s;
     }
   };
   const auto take = [&](double s, double t) {
     allowed(s, t);
     const ShapePoint p = at(s, t);
-    if (p.gap < best) best = p.gap, best_s = s, best_t = t;
+    if (p.gap < best) {
+      best = p.gap;
+      best_s = s;
+      best_t = t;
+    }
     return p;
   };
   const std::function<void(double, double, double, int)> piece = [&](double s, double t,
@@ -146,7 +171,13 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
     for (double ds : {-0.5, 0.5})
       for (double dt : {-0.5, 0.5})
         if (!line || dt < 0) {
-          const double a = s + ds * half, b = line ? 0 : t + dt * half;
+          const double a = s + ds * half;
+          double b = 0;
+          if (line) {
+            b = 0;
+          } else {
+            b = t + dt * half;
+          }
           if (!triangle || a + b < 1 + half) piece(a, b, 0.5 * half, level + 1);
         }
   };
@@ -154,7 +185,8 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
     for (double t : {low, 1.0}) take(s, t);
   triangle ? piece(0.5, 0.5, 0.5, 0) : piece(0, 0, 1, 0);
   for (double step = triangle ? 0.06 : 0.12; step > 1e-3;) {
-    const double s = best_s, t = best_t;
+    const double s = best_s;
+    const double t = best_t;
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j) take(s + i * step, t + j * step);
     if (best_s == s && best_t == t) step *= 0.5;
@@ -166,7 +198,8 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
 }
 
 std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves) const {
-  double shortest = std::numeric_limits<double>::infinity(), step = 0;
+  double shortest = std::numeric_limits<double>::infinity();
+  double step = 0;
   for (int n : nodes_) shortest = std::min(shortest, spacing_[n]);
   std::vector<Vec3> way{Vec3::Zero()};
   for (const Waypoint& w : contact.motion) {
@@ -183,7 +216,8 @@ std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves
   for (int n : nodes_) {
     double gap = std::numeric_limits<double>::infinity();
     for (const Vec3& c : way) gap = std::min(gap, shape_at(contact.shape, mesh_.X[n] - c).gap);
-    least.push_back(gap), depth = std::max(depth, -gap);
+    least.push_back(gap);
+    depth = std::max(depth, -gap);
   }
   std::vector<int> nodes;
   for (std::size_t i = 0; i < nodes_.size();
@@ -197,7 +231,10 @@ bool SurfaceCheck::inside_body(const Vec3& p, const std::vector<Vec3>& x) const 
   double angle = 0;
   for (const auto& quads : quads_)
     for (const auto& q : quads) {
-      const Vec3 a = x[q[0]] - p, b = x[q[1]] - p, d = x[q[2]] - p, e = x[q[3]] - p;
+      const Vec3 a = x[q[0]] - p;
+      const Vec3 b = x[q[1]] - p;
+      const Vec3 d = x[q[2]] - p;
+      const Vec3 e = x[q[3]] - p;
       if (mesh_.section)
         angle += std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
       else
@@ -213,9 +250,12 @@ double SurfaceCheck::pressed_along(Vec3 along, const std::vector<Vec3>& u) const
   }
   if (along.isZero(0)) return 0;
   along.normalize();
-  double most = -std::numeric_limits<double>::infinity(), fewest = -most;
-  for (int n : nodes_)
-    most = std::max(most, along.dot(u[n])), fewest = std::min(fewest, along.dot(u[n]));
+  double most = -std::numeric_limits<double>::infinity();
+  double fewest = -most;
+  for (int n : nodes_) {
+    most = std::max(most, along.dot(u[n]));
+    fewest = std::min(fewest, along.dot(u[n]));
+  }
   return most - fewest;
 }
 
@@ -229,23 +269,30 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     candidate[contact.nodes[i]] = 1;
     if (r.empty() || r[i].isZero(0)) continue;
-    touches[contact.nodes[i]] = 1, ++found.touching, along += r[i];
+    touches[contact.nodes[i]] = 1;
+    ++found.touching;
+    along += r[i];
   }
   for (const HangingNode& h : mesh_.hanging) candidate[h.node] = 1;  // a point of a facet
   std::vector<double> gap(x.size(), std::numeric_limits<double>::infinity());
   for (int n : nodes_) {
     const double g = gap[n] = shape_at(contact.shape, x[n] - c).gap;
-    if (g < found.distance) found.distance = g, found.nearest = mesh_.X[n];
+    if (g < found.distance) {
+      found.distance = g;
+      found.nearest = mesh_.X[n];
+    }
     if (!candidate[n] && -g > found.node.depth) found.node = {-g, mesh_.X[n]};
   }
   const double width = half_width(contact.shape);
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const Patch& patch = patches_[k];
     if (patch.axis) continue;
-    double size = 0, least = std::numeric_limits<double>::infinity();
+    double size = 0;
+    double least = std::numeric_limits<double>::infinity();
     bool touched = false;
     for (int n : patch.nodes) {
-      size = std::max(size, (x[n] - x[patch.nodes[0]]).norm()), least = std::min(least, gap[n]);
+      size = std::max(size, (x[n] - x[patch.nodes[0]]).norm());
+      least = std::min(least, gap[n]);
       touched = touched || touches[n];
     }
     const double a = half_diagonal(patch);
@@ -256,13 +303,18 @@ SurfaceLook SurfaceCheck::look(const RigidContact& contact, const std::vector<Ve
     // every point of the facet is within its diameter of each node
     if (!touched && least - size > std::max(0.0, found.distance)) continue;
     const Deepest d = deepest(patch, contact, x, c);
-    if (d.gap < found.distance) found.distance = d.gap, found.nearest = d.X;
+    if (d.gap < found.distance) {
+      found.distance = d.gap;
+      found.nearest = d.X;
+    }
     if (!(d.gap < -1e-9)) continue;
     found.spacing = std::min(found.spacing, a);
     if (-d.gap > found.facet.depth) found.facet = {-d.gap, d.X};
     const double ratio = -d.gap / std::min(a, width);
-    if (ratio > found.unresolved_ratio)
-      found.unresolved_ratio = ratio, found.unresolved = {-d.gap, d.X};
+    if (ratio > found.unresolved_ratio) {
+      found.unresolved_ratio = ratio;
+      found.unresolved = {-d.gap, d.X};
+    }
   }
   if (found.touching == 0 && found.distance > -1e-9)
     if (const auto p = point_inside(contact.shape)) found.swallowed = inside_body(*p + c, x);

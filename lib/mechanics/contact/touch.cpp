@@ -32,12 +32,14 @@ double change_of_touch(const RigidContact& contact, double t, double travel,
                        const std::function<Vec3(int node)>& position,
                        const std::function<Vec3(int node)>& moved) {
   const Vec3 c = indenter_displacement(contact, t, travel);
-  double least = std::numeric_limits<double>::infinity(), change = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double change = 0;
   for (int node : contact.nodes) {
     const ShapePoint shape = shape_at(contact.shape, position(node) - c);
-    if (shape.gap < least)
-      least = shape.gap,
+    if (shape.gap < least) {
+      least = shape.gap;
       change = moved(node).dot(shape.normal) / contact.control->along.dot(shape.normal);
+    }
   }
   return change;
 }
@@ -48,7 +50,11 @@ Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance
   Vec3 start = a.u0;
   if (gap > tolerance) {
     const double closed = gap - shape_at(contact.shape, a.X + a.u - a.c).gap;
-    touches = closed > gap ? gap / closed : 1;
+    if (closed > gap) {
+      touches = gap / closed;
+    } else {
+      touches = 1;
+    }
     start = a.u0 + touches * (a.u - a.u0 - (a.c - a.c0));
   }
   if (contact.rotation) start += carried(contact, (1 - touches) * a.angle, a.X + start, a.c0);
@@ -59,16 +65,22 @@ Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const 
                           double tolerance) {
   const ShapePoint from = shape_at(contact.shape, a.X + a.u0 - a.c0);
   double touches = 0, d_touches = 0;
-  Vec3 start = a.u0, d_start = d.u0;
+  Vec3 start = a.u0;
+  Vec3 d_start = d.u0;
   if (from.gap > tolerance) {
     const ShapePoint to = shape_at(contact.shape, a.X + a.u - a.c);
-    const Vec3 way = a.u - a.u0 - (a.c - a.c0), d_way = d.u - d.u0 - (d.c - d.c0);
+    const Vec3 way = a.u - a.u0 - (a.c - a.c0);
+    const Vec3 d_way = d.u - d.u0 - (d.c - d.c0);
     const double closed = from.gap - to.gap;
-    const double d_gap = from.normal.dot(d.u0 - d.c0), d_closed = d_gap - to.normal.dot(d.u - d.c);
+    const double d_gap = from.normal.dot(d.u0 - d.c0);
+    const double d_closed = d_gap - to.normal.dot(d.u - d.c);
     touches = 1;
-    if (closed > from.gap)
-      touches = from.gap / closed, d_touches = (d_gap - touches * d_closed) / closed;
-    start += touches * way, d_start += d_touches * way + touches * d_way;
+    if (closed > from.gap) {
+      touches = from.gap / closed;
+      d_touches = (d_gap - touches * d_closed) / closed;
+    }
+    start += touches * way;
+    d_start += d_touches * way + touches * d_way;
   }
   if (!contact.rotation) return d_start;
   // (R - 1) q and the derivative of R q with respect to the angle, along x R q

@@ -26,7 +26,8 @@ ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local
   if (linear_pressure(law)) {
     const T kappa = bulk_modulus(law) - local;
     for (int k = 0; k < n; ++k) {
-      out.p[k] = kappa * t[k], out.kappa[k][k] = kappa;
+      out.p[k] = kappa * t[k];
+      out.kappa[k][k] = kappa;
       out.W += 0.5 * V * out.p[k] * t[k];
     }
     return out;
@@ -34,8 +35,12 @@ ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local
   const T inverse_V = 1.0 / V;
   for (int g = 0; g < (n == 1 ? 1 : n_gauss); ++g) {
     const T share = n == 1 ? T(1.0) : T(w(g) * inverse_V);
-    T m[n_modes] = {T(1.0)}, theta = t[0];
-    for (int k = 1; k < n; ++k) m[k] = mode(g, k), theta += m[k] * t[k];
+    T m[n_modes] = {T(1.0)};
+    theta = t[0];
+    for (int k = 1; k < n; ++k) {
+      m[k] = mode(g, k);
+      theta += m[k] * t[k];
+    }
     const Energy<T> U = volume_energy(law, theta);
     out.W += share * U.W;
     for (int k = 0; k < n; ++k) {
@@ -46,9 +51,11 @@ ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local
   }
   for (int k = 0; k < n; ++k) {
     out.W -= 0.5 * local * t[k] * t[k];
-    out.p[k] -= local * t[k], out.kappa[k][k] -= local;
+    out.p[k] -= local * t[k];
+    out.kappa[k][k] -= local;
   }
-  out.W = V * out.W, out.independent = n == 1;
+  out.W = V * out.W;
+  out.independent = n == 1;
   return out;
 }
 

@@ -34,14 +34,18 @@ template <std::size_t n>
 std::array<Normal, n> grid() {
   std::array<Normal, n> out;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 v = wave_normal(static_cast<int>(i), static_cast<int>(n)), s = v.unitOrthogonal(),
-               t = v.cross(s);
+    const Vec3 v = wave_normal(static_cast<int>(i), static_cast<int>(n));
+    const Vec3 s = v.unitOrthogonal();
+    const Vec3 t = v.cross(s);
     for (int p = 0; p < 6; ++p) {
-      const int k = voigt_i[p], l = voigt_j[p];
+      const int k = voigt_i[p];
+      const int l = voigt_j[p];
       const auto weight = [&](const Vec3& x) {
         return p < 3 ? x[k] * v[k] : x[k] * v[l] + x[l] * v[k];
       };
-      out[i].nn[p] = weight(v), out[i].sn[p] = weight(s), out[i].tn[p] = weight(t);
+      out[i].nn[p] = weight(v);
+      out[i].sn[p] = weight(s);
+      out[i].tn[p] = weight(t);
     }
   }
   return out;
@@ -62,13 +66,22 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
           P* B) {
   const SpatialState state(F, J, [&](std::size_t k, int i) { return a[k][i]; });
   P dW{}, ddW{};
-  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { dW += e.dW, ddW += e.ddW; });
-  for (int p = 0; p < 6; ++p) out[0].h[p] = state.b[p], B[p] = 2.0 * dW * state.b[p];
+  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) {
+    dW += e.dW;
+    ddW += e.ddW;
+  });
+  for (int p = 0; p < 6; ++p) {
+    out[0].h[p] = state.b[p];
+    B[p] = 2.0 * dW * state.b[p];
+  }
   out[0].four_ddW = 4.0 * ddW;
   int n = 1;
   fibre_terms<P>(material, state, [&](const auto& family, const Energy<P>& e) {
     Term& term = out[n++];
-    for (int p = 0; p < 6; ++p) term.h[p] = family.h[p], B[p] += 2.0 * e.dW * family.h[p];
+    for (int p = 0; p < 6; ++p) {
+      term.h[p] = family.h[p];
+      B[p] += 2.0 * e.dW * family.h[p];
+    }
     term.four_ddW = 4.0 * e.ddW;
   });
   return n;
@@ -79,7 +92,9 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
 void check_points(const Material& material, const ElementGeometry& geometry,
                   std::span<const Vec3> a, const ElementNodes& u, PointCheck& out) {
   const int n_gauss = geometry.n_gauss();
-  out.F.resize(n_gauss), out.J.resize(n_gauss), out.stiffness.resize(n_gauss);
+  out.F.resize(n_gauss);
+  out.J.resize(n_gauss);
+  out.stiffness.resize(n_gauss);
   for (int g = 0; g < n_gauss; ++g) {
     const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
     out.F[g] = Mat3::Identity() + H;
@@ -104,13 +119,16 @@ void check_points(const Material& material, const ElementGeometry& geometry,
     for (const Normal& normal : normals) {
       P aa{}, ab{}, bb{};
       for (int k = 0; k < n; ++k) {
-        const P s = contract(normal.sn, law[k].h), t = contract(normal.tn, law[k].h);
-        aa += law[k].four_ddW * s * s, ab += law[k].four_ddW * s * t, bb += law[k].four_ddW * t * t;
+        const P s = contract(normal.sn, law[k].h);
+        const P t = contract(normal.tn, law[k].h);
+        aa += law[k].four_ddW * s * s;
+        ab += law[k].four_ddW * s * t;
+        bb += law[k].four_ddW * t * t;
       }
       const P half = 0.5 * (aa - bb);
       const P same = contract(normal.nn, B);
-      const P value = same + 0.5 * (aa + bb) - root(half * half + ab * ab),
-              size = root(same * same) + root((aa + bb) * (aa + bb));
+      const P value = same + 0.5 * (aa + bb) - root(half * half + ab * ab);
+      const P size = root(same * same) + root((aa + bb) * (aa + bb));
       largest = P(size.v > largest.v ? size.v : largest.v);
       least = P(value.v < least.v || value.v != value.v ? value.v : least.v);
     }

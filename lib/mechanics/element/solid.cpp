@@ -27,8 +27,13 @@ typename Sizes<n>::Strain strain_operator(const Mat3& F, const typename Sizes<n>
   for (int a = 0; a < n; ++a)
     for (int k = 0; k < 3; ++k)
       for (int p = 0; p < 6; ++p) {
-        const int i = voigt_i[p], j = voigt_j[p];
-        B(p, 3 * a + k) = p < 3 ? F(k, i) * dN(a, i) : F(k, i) * dN(a, j) + F(k, j) * dN(a, i);
+        const int i = voigt_i[p];
+        const int j = voigt_j[p];
+        if (p < 3) {
+          B(p, 3 * a + k) = F(k, i) * dN(a, i);
+        } else {
+          B(p, 3 * a + k) = F(k, i) * dN(a, j) + F(k, j) * dN(a, i);
+        }
       }
   return B;
 }
@@ -56,7 +61,8 @@ void add_geometric(const typename Sizes<n>::Gradient& dN, const Vec6& S, double 
 }
 
 double mode(const ElementGeometry& geometry, int g, int k) {
-  return k == 0 ? 1 : geometry.mode[g][k];
+  if (k == 0) return 1;
+  return geometry.mode[g][k];
 }
 
 // n nodes; sizes known to the compiler
@@ -86,15 +92,18 @@ ModalVolume<double> add_modal(const Material& material, double local,
                               const ElementGeometry& geometry, const GaussPoints<n>& at, int n_p,
                               typename Sizes<n>::Vec& f, typename Sizes<n>::Mat* K,
                               SolidElement& out) {
-  out.J_minus_1.assign(n_p, 0), out.dJ_du.assign(n_p, VecX::Zero(3 * n));
+  out.J_minus_1.assign(n_p, 0);
+  out.dJ_du.assign(n_p, VecX::Zero(3 * n));
   for (int k = 0; k < n_p; ++k) {
     double& t = out.J_minus_1[k];
     VecX& b = out.dJ_du[k];
     for (int g = 0; g < geometry.n_gauss(); ++g) {
       const double w = geometry.w[g] * mode(geometry, g, k);
-      t += w * at.J_minus_1[g], b += w * at.dJ[g];
+      t += w * at.J_minus_1[g];
+      b += w * at.dJ[g];
     }
-    t /= geometry.V, b /= geometry.V;
+    t /= geometry.V;
+    b /= geometry.V;
   }
   const ModalVolume<double> volume =
       modal_volume(material.volume, n_p, out.J_minus_1.data(), local, geometry);
@@ -114,7 +123,8 @@ bool solid_of(Formulation formulation, const Material& material, double local,
               const double* p_tangent, bool with_tangent, SolidElement& out,
               const CellMemory* memory) {
   const bool modal = formulation != Formulation::displacement;
-  const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, n);
+  const int n_gauss = geometry.n_gauss();
+  const int n_p = n_pressures(formulation, n);
   typename Sizes<n>::Vec f = Sizes<n>::Vec::Zero();
   thread_local typename Sizes<n>::Mat K;  // 52 kB for 27 nodes
   if (with_tangent) K.setZero();
@@ -126,11 +136,14 @@ bool solid_of(Formulation formulation, const Material& material, double local,
   ModalVolume<double> volume;
   if (modal)
     volume = add_modal<n>(material, local, geometry, at, n_p, f, with_tangent ? &K : nullptr, out);
-  else
-    out.J_minus_1 = at.J_minus_1, out.dJ_du.assign(at.dJ.begin(), at.dJ.end());
+  else {
+    out.J_minus_1 = at.J_minus_1;
+    out.dJ_du.assign(at.dJ.begin(), at.dJ.end());
+  }
 
   for (int g = 0; g < n_gauss; ++g) {
-    const double w = geometry.w[g], J = 1 + at.J_minus_1[g];
+    const double w = geometry.w[g];
+    const double J = 1 + at.J_minus_1[g];
     const Mat3 C = at.F[g].transpose() * at.F[g];
     Response iso =
         memory ? isochoric(material, C, a, memory->amplified) : isochoric(material, C, a);
@@ -179,17 +192,22 @@ double local_modulus_change(const ElementGeometry& geometry, const double* p, co
   double most = 0, change = 0;
   for (int g = 0; g < geometry.n_gauss(); ++g) {
     double here = 0, d_here = 0;
-    for (int k = 0; k < n_modes; ++k)
-      here += geometry.mode[g][k] * p[k], d_here += geometry.mode[g][k] * dp[k];
-    if (-here > most) most = -here, change = -d_here;
+    for (int k = 0; k < n_modes; ++k) {
+      here += geometry.mode[g][k] * p[k];
+      d_here += geometry.mode[g][k] * dp[k];
+    }
+    if (-here > most) {
+      most = -here;
+      change = -d_here;
+    }
   }
   return change;
 }
 
 int n_pressures(Formulation f, int n_nodes) {
-  return f == Formulation::mean_dilatation     ? 1
-         : f == Formulation::linear_dilatation ? n_modes
-                                               : reference(n_nodes).n_gauss;
+  if (f == Formulation::mean_dilatation) return 1;
+  if (f == Formulation::linear_dilatation) return n_modes;
+  return reference(n_nodes).n_gauss;
 }
 
 Formulation usual_formulation(CellType type) {
@@ -212,7 +230,8 @@ bool solid(Formulation formulation, const Material& material, double local,
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material,
                                      const ElementGeometry& geometry, std::span<const Vec3> a,
                                      const ElementNodes& u, std::span<const Vec6> branches) {
-  const int n_gauss = geometry.n_gauss(), n_p = n_pressures(formulation, geometry.n_nodes());
+  const int n_gauss = geometry.n_gauss();
+  const int n_p = n_pressures(formulation, geometry.n_nodes());
   const bool modal = formulation != Formulation::displacement;
   std::vector<GaussState> states(n_gauss);
   std::array<double, n_modes> t{};

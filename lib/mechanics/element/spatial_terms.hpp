@@ -22,7 +22,8 @@ struct SpatialState {
     const P root = cbrt(J);
     factor = 1.0 / (root * root);
     for (int p = 0; p < 6; ++p) {
-      const int i = voigt_i[p], j = voigt_j[p];
+      const int i = voigt_i[p];
+      const int j = voigt_j[p];
       b[p] = factor *
              (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1] + F[3 * i + 2] * F[3 * j + 2]);
     }

@@ -43,14 +43,16 @@ double outwards(const ReferenceCell& cell, int facet) {
     out += cell.node[cell.facet[facet][k]] / cell.facet_corners;
   for (int a = 0; a < cell.n_corners; ++a) out -= cell.node[a] / cell.n_corners;
   const FacetPoint& point = cell.facet_points[facet].front();
-  return point.along_1.cross(point.along_2).dot(out) > 0 ? 1 : -1;
+  if (point.along_1.cross(point.along_2).dot(out) > 0) return 1;
+  return -1;
 }
 
 // on(N, dN/d1, dN/d2, x,1, x,2, weight) at each Gauss point of the facet
 void at_facet_points(const ReferenceCell& cell, int facet, const ElementNodes& x, auto&& on) {
   for (const FacetPoint& point : cell.facet_points[facet]) {
     const Gradients dN = cell.gradient(point.xi);
-    const VecX dN_1 = dN * point.along_1, dN_2 = dN * point.along_2;
+    const VecX dN_1 = dN * point.along_1;
+    const VecX dN_2 = dN * point.along_2;
     on(cell.shape(point.xi), dN_1, dN_2, Vec3(x.transpose() * dN_1), Vec3(x.transpose() * dN_2),
        point.weight);
   }
@@ -87,7 +89,8 @@ MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes
   at_facet_points(cell, facet, x,
                   [&](const VecX& N, const VecX& dN_1, const VecX& dN_2, const Vec3& x_1,
                       const Vec3& x_2, double w) {
-                    const Mat3 by_1 = w * cross_with(x_1), by_2 = w * cross_with(x_2);
+                    const Mat3 by_1 = w * cross_with(x_1);
+                    const Mat3 by_2 = w * cross_with(x_2);
                     for (int a : cell.facet[facet])
                       for (int b : cell.facet[facet])
                         K.block<3, 3>(3 * a, 3 * b) -= N[a] * (dN_2[b] * by_1 - dN_1[b] * by_2);
@@ -102,8 +105,9 @@ ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, cons
   at_facet_points(cell, facet, x,
                   [&](const VecX& N, const VecX& dN_1, const VecX& dN_2, const Vec3& x_1,
                       const Vec3& x_2, double w) {
-                    const Vec3 dx_1 = dx.transpose() * dN_1, dx_2 = dx.transpose() * dN_2,
-                               area = out * w * (dx_1.cross(x_2) + x_1.cross(dx_2));
+                    const Vec3 dx_1 = dx.transpose() * dN_1;
+                    const Vec3 dx_2 = dx.transpose() * dN_2;
+                    const Vec3 area = out * w * (dx_1.cross(x_2) + x_1.cross(dx_2));
                     for (int a : cell.facet[facet]) f.row(a) -= N[a] * area.transpose();
                   });
   return f;

@@ -31,10 +31,12 @@ ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::
     first_.push_back(next);
     if (!has(e)) continue;
     const auto n = static_cast<std::size_t>(n_gauss);
-    next.point += n, next.stress += n * law_of(e).groups.size(),
-        next.branch += n * law_of(e).branches.size();
+    next.point += n;
+    next.stress += n * law_of(e).groups.size();
+    next.branch += n * law_of(e).branches.size();
   }
-  stress_.assign(6 * next.stress, 0), trial_ = stress_;
+  stress_.assign(6 * next.stress, 0);
+  trial_ = stress_;
   branch_.assign(6 * next.branch, 0);
   work_.assign(next.point, 0);
   error_.assign(static_cast<std::size_t>(n_cells), 0), size_ = error_;
@@ -43,7 +45,8 @@ ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::
 
 void ViscousPoints::begin(double seconds) {
   for (Law& law : laws_) {
-    law.steps.clear(), law.step_error.clear();
+    law.steps.clear();
+    law.step_error.clear();
     law.amplified = {};
     for (const ViscousBranch& branch : law.branches) {
       law.steps.push_back(branch_step(branch, seconds));
@@ -56,7 +59,9 @@ void ViscousPoints::begin(double seconds) {
 Vec6 ViscousPoints::H(int e, int g) const {
   const Law& law = law_of(e);
   const First& first = first_[static_cast<std::size_t>(e)];
-  const std::size_t n = law.branches.size(), m = law.groups.size(), q = static_cast<std::size_t>(g);
+  const std::size_t n = law.branches.size();
+  const std::size_t m = law.groups.size();
+  const std::size_t q = static_cast<std::size_t>(g);
   Vec6 H = Vec6::Zero();
   for (std::size_t i = 0; i < n; ++i)
     H += law.steps[i].keep * at(branch_, first.branch + q * n + i) -
@@ -74,7 +79,8 @@ void ViscousPoints::end(int e, const Material& material, const ElementGeometry& 
                         std::span<const Vec3> a, const ElementNodes& u) {
   if (!has(e)) return;
   const Law& law = law_of(e);
-  const std::size_t m = law.groups.size(), first = first_[static_cast<std::size_t>(e)].stress;
+  const std::size_t m = law.groups.size();
+  const std::size_t first = first_[static_cast<std::size_t>(e)].stress;
   double error = 0, size = 0;
   for (int g = 0; g < n_gauss_; ++g) {
     const Mat3 C =
@@ -89,14 +95,18 @@ void ViscousPoints::end(int e, const Material& material, const ElementGeometry& 
       here_error +=
           law.step_error[i] *
           (at(trial_, here + law.group_of[i]) - at(stress_, here + law.group_of[i])).norm();
-    error += geometry.w[g] * here_error * here_error, size += geometry.w[g] * here_size * here_size;
+    error += geometry.w[g] * here_error * here_error;
+    size += geometry.w[g] * here_size * here_size;
   }
   error_[static_cast<std::size_t>(e)] = error, size_[static_cast<std::size_t>(e)] = size;
 }
 
 double ViscousPoints::error() const {
   const double size = std::max(largest_, std::accumulate(size_.begin(), size_.end(), 0.));
-  return size > 0 ? std::sqrt(std::accumulate(error_.begin(), error_.end(), 0.) / size) : 0;
+  if (size > 0) {
+    return std::sqrt(std::accumulate(error_.begin(), error_.end(), 0.) / size);
+  }
+  return 0;
 }
 
 void ViscousPoints::accept(int e, const ElementGeometry& geometry, const ElementNodes& u0,
@@ -104,11 +114,12 @@ void ViscousPoints::accept(int e, const ElementGeometry& geometry, const Element
   if (!has(e)) return;
   const Law& law = law_of(e);
   const First& first = first_[static_cast<std::size_t>(e)];
-  const std::size_t n = law.branches.size(), m = law.groups.size();
+  const std::size_t n = law.branches.size();
+  const std::size_t m = law.groups.size();
   for (int g = 0; g < n_gauss_; ++g) {
     const std::size_t q = static_cast<std::size_t>(g);
-    const Mat3 grad0 = displacement_gradient(u0, geometry.dN_dX[g]),
-               grad = displacement_gradient(u, geometry.dN_dX[g]);
+    const Mat3 grad0 = displacement_gradient(u0, geometry.dN_dX[g]);
+    const Mat3 grad = displacement_gradient(u, geometry.dN_dX[g]);
     const Vec6 dE = voigt_strain(green_lagrange(grad) - green_lagrange(grad0));
     Vec6 twice_mean = Vec6::Zero();
     for (std::size_t i = 0; i < n; ++i) {
@@ -120,7 +131,8 @@ void ViscousPoints::accept(int e, const ElementGeometry& geometry, const Element
     }
     work_[first.point + q] += 0.5 * twice_mean.dot(dE);
   }
-  const std::size_t from = 6 * first.stress, to = from + 6 * m * static_cast<std::size_t>(n_gauss_);
+  const std::size_t from = 6 * first.stress;
+  const std::size_t to = from + 6 * m * static_cast<std::size_t>(n_gauss_);
   std::copy(trial_.begin() + static_cast<std::ptrdiff_t>(from),
             trial_.begin() + static_cast<std::ptrdiff_t>(to),
             stress_.begin() + static_cast<std::ptrdiff_t>(from));

@@ -50,7 +50,10 @@ class ViscousPoints {
   // integral of sum Q_i : E' at a Gauss point since rest [MPa]: dissipated, or in the branches
   // until they relax. A cycle that is closed by holding costs this and nothing else: where it is
   // negative the law gives work for nothing.
-  double work(int e, int g) const { return work_.empty() ? 0 : work_[point(e, g)]; }
+  double work(int e, int g) const {
+    if (work_.empty()) return 0;
+    return work_[point(e, g)];
+  }
   double bytes() const {
     return 8.0 *
            static_cast<double>(stress_.size() + trial_.size() + branch_.size() + work_.size());

@@ -41,7 +41,8 @@ void LinearSolver::State::analyse() {
 }
 
 void LinearSolver::State::order_last() {
-  const int n = static_cast<int>(A->nrow), m = static_cast<int>(last.size());
+  const int n = static_cast<int>(A->nrow);
+  const int m = static_cast<int>(last.size());
   const int* fill_reducing = static_cast<int*>(L->Perm);
   std::vector<int> order;
   order.reserve(n);
@@ -100,7 +101,8 @@ VecX LinearSolver::solve(const VecX& b) const {
 
 LinearSolver::Half LinearSolver::start(const VecX& b) const {
   const State& s = *state_;
-  const Eigen::Index n = b.size(), m = static_cast<Eigen::Index>(s.last.size());
+  const Eigen::Index n = b.size();
+  const Eigen::Index m = static_cast<Eigen::Index>(s.last.size());
   Half half{VecX(m), VecX(n)};
   if (!s.halves()) {
     half.rest = solve(b);
@@ -120,7 +122,8 @@ LinearSolver::Half LinearSolver::start(const VecX& b) const {
 
 VecX LinearSolver::finish(const Half& half, const VecX& c) const {
   const State& s = *state_;
-  const Eigen::Index n = half.rest.size(), m = static_cast<Eigen::Index>(s.last.size());
+  const Eigen::Index n = half.rest.size();
+  const Eigen::Index m = static_cast<Eigen::Index>(s.last.size());
   if (!s.halves()) {
     VecX b = VecX::Zero(n);
     for (Eigen::Index i = 0; i < m; ++i) b[s.last[i]] += c[i];
@@ -158,7 +161,9 @@ VecX LinearSolver::State::through(int system, const VecX& b) const {
 // Lower-triangular trailing block of L, read from the supernodes.
 const MatX& LinearSolver::State::trailing_factor() const {
   if (trailing_block.size() > 0) return trailing_block;
-  const int n = static_cast<int>(L->n), m = static_cast<int>(last.size()), first = n - m;
+  const int n = static_cast<int>(L->n);
+  const int m = static_cast<int>(last.size());
+  const int first = n - m;
   const int *super = static_cast<int*>(L->super), *pi = static_cast<int*>(L->pi),
             *px = static_cast<int*>(L->px), *rows = static_cast<int*>(L->s);
   const double* x = static_cast<double*>(L->x);
@@ -220,8 +225,8 @@ std::optional<MatX> LinearSolver::schur() const {
 
 LinearSolver::Size LinearSolver::size() const {
   const State& s = *state_;
-  const double nonzeros = static_cast<double>(s.A->nzmax),
-               block = static_cast<double>(s.last.size());
+  const double nonzeros = static_cast<double>(s.A->nzmax);
+  const double block = static_cast<double>(s.last.size());
   // supernodes with their workspace; K permuted, twice; the candidates' trailing block and their
   // compliance
   const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros +

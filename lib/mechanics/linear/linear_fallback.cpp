@@ -30,10 +30,12 @@ bool LinearSolver::factorize_with_springs(const std::vector<double>& values, int
     const auto known = std::find(s.springs.begin(), s.springs.end(), row);
     double more = 100 * std::max(mean, std::abs(values[column_start[row]]));
     if (known == s.springs.end()) {
-      s.springs.push_back(row), stiffness.push_back(more);
+      s.springs.push_back(row);
+      stiffness.push_back(more);
     } else {
       double& k = stiffness[static_cast<std::size_t>(known - s.springs.begin())];
-      more = 9 * k, k += more;
+      more = 9 * k;
+      k += more;
     }
     x[column_start[row]] += more;
   }
@@ -73,15 +75,22 @@ bool LinearSolver::State::factorize_indefinite() {
         if (row[k] != c) ++full_start[row[k] + 1];
       }
     for (int c = 0; c < n; ++c) full_start[c + 1] += full_start[c];
-    full_row.resize(full_start[n]), full_from.resize(full_start[n]),
-        full_value.resize(full_start[n]);
+    full_row.resize(full_start[n]);
+    full_from.resize(full_start[n]);
+    full_value.resize(full_start[n]);
     std::vector<int> next(full_start.begin(), full_start.end() - 1);
     for (int c = 0; c < n;
          ++c)  // ascending c puts the upper entries of a column before its lower ones, in order
       for (int k = p[c]; k < p[c + 1]; ++k)
-        if (row[k] != c) full_row[next[row[k]]] = c, full_from[next[row[k]]++] = k;
+        if (row[k] != c) {
+          full_row[next[row[k]]] = c;
+          full_from[next[row[k]]++] = k;
+        }
     for (int c = 0; c < n; ++c)
-      for (int k = p[c]; k < p[c + 1]; ++k) full_row[next[c]] = row[k], full_from[next[c]++] = k;
+      for (int k = p[c]; k < p[c + 1]; ++k) {
+        full_row[next[c]] = row[k];
+        full_from[next[c]++] = k;
+      }
   }
   for (std::size_t k = 0; k < full_from.size(); ++k) full_value[k] = x[full_from[k]];
   double control[UMFPACK_CONTROL];
@@ -110,7 +119,8 @@ int LinearSolver::negative_pivots(const std::vector<double>& values) {
   const auto way = s.common.supernodal;
   const auto ordering = s.common.method[0].ordering;
   const auto final_ll = s.common.final_ll;
-  s.common.supernodal = CHOLMOD_SIMPLICIAL, s.common.final_ll = 0,
+  s.common.supernodal = CHOLMOD_SIMPLICIAL;
+  s.common.final_ll = 0;
   s.common.method[0].ordering = CHOLMOD_GIVEN;
   s.common.status = CHOLMOD_OK;
   cholmod_factor* D = cholmod_analyze_p(s.A, static_cast<int*>(s.L->Perm), nullptr, 0, &s.common);
@@ -121,7 +131,9 @@ int LinearSolver::negative_pivots(const std::vector<double>& values) {
       negative += static_cast<double*>(D->x)[static_cast<int*>(D->p)[i]] < 0;
   }
   if (D) cholmod_free_factor(&D, &s.common);
-  s.common.supernodal = way, s.common.final_ll = final_ll, s.common.method[0].ordering = ordering;
+  s.common.supernodal = way;
+  s.common.final_ll = final_ll;
+  s.common.method[0].ordering = ordering;
   if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   return negative;
 }

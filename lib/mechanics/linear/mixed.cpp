@@ -14,14 +14,18 @@ std::vector<int> by_nodes(const std::vector<int>& dof_of_row) {
   std::vector<int> out;
   int nodes = 0, last = -1;
   for (int dof : dof_of_row) {
-    if (dof / 3 != last) last = dof / 3, ++nodes;
+    if (dof / 3 != last) {
+      last = dof / 3;
+      ++nodes;
+    }
     out.push_back(3 * (nodes - 1) + dof % 3);
   }
   return out;
 }
 
 int rows_of_nodes(const std::vector<int>& block_row) {
-  return block_row.empty() ? 0 : block_row.back() / 3 * 3 + 3;
+  if (block_row.empty()) return 0;
+  return block_row.back() / 3 * 3 + 3;
 }
 
 std::vector<int> in_nodes(std::vector<int> rows, const std::vector<int>& block_row) {
@@ -99,10 +103,14 @@ VecX MixedSolver::diagonal_of(const std::vector<double>& A) const {
 
 void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
   const std::size_t rows = start_.size() - 1;
-  if (column_.empty()) column_.resize(start_.back()), value_.resize(start_.back());
+  if (column_.empty()) {
+    column_.resize(start_.back());
+    value_.resize(start_.back());
+  }
   std::vector<int> to(start_.begin(), start_.end() - 1);
   const auto put = [&](int row, int column, double value) {
-    column_[to[row]] = column, value_[to[row]++] = value;
+    column_[to[row]] = column;
+    value_[to[row]++] = value;
   };
   for (int column = 0; column < pattern_.n;
        ++column)  // what stands before the diagonal of later rows first
@@ -115,7 +123,12 @@ void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
       put(block_row_[column], block_row_[pattern_.row[at]], A[at]);
   }
   inverse_diagonal_.assign(rows, 0);
-  const double held = ranks_ && !ranks_->first() ? 0 : sum / pattern_.n;
+  double held = 0;
+  if (ranks_ && !ranks_->first()) {
+    held = 0;
+  } else {
+    held = sum / pattern_.n;
+  }
   for (std::size_t row = 0; row < rows; ++row)  // held directions of nodes that are free in others
     if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), held);
   for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / diagonal[row];
@@ -139,7 +152,11 @@ bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vecto
   std::vector<double> scaled(b);  // B M^-1/2
   for (std::size_t k = 0; k < scaled.size(); ++k) {
     const int row = cell_rows_[k];
-    scaled[k] *= row >= 0 && !fixed[row] ? std::sqrt(inverse_diagonal_[block_row_[row]]) : 0;
+    if (row >= 0 && !fixed[row]) {
+      scaled[k] *= std::sqrt(inverse_diagonal_[block_row_[row]]);
+    } else {
+      scaled[k] *= 0;
+    }
   }
   return schur_.factorize(scaled, inverse_D_);
 }
@@ -167,18 +184,31 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
                                 value_.data(), rank_of_node_.data()};
   preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
   again_ = preconditioned_;
-  if (ranks_) column_ = {}, value_ = {};  // PETSc has the whole rows of this rank
+  if (ranks_) {
+    // PETSc has the whole rows of this rank
+    column_ = {};
+    value_ = {};
+  }
   return preconditioned_;
 }
 
 VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
-  const Eigen::Index rows = static_cast<Eigen::Index>(start_.size()) - 1, n = pattern_.n;
-  VecX free = VecX::Zero(n), block = VecX::Zero(rows), z(r.size());
+  const Eigen::Index rows = static_cast<Eigen::Index>(start_.size()) - 1;
+  const Eigen::Index n = pattern_.n;
+  VecX free = VecX::Zero(n);
+  VecX block = VecX::Zero(rows);
+  VecX z(r.size());
   const auto to_block = [&] {
     for (Eigen::Index row = 0; row < n; ++row) block[block_row_[row]] = fixed_[row] ? 0 : free[row];
   };
   const auto from_block = [&](const VecX& of) {
-    for (Eigen::Index row = 0; row < n; ++row) free[row] = fixed_[row] ? 0 : of[block_row_[row]];
+    for (Eigen::Index row = 0; row < n; ++row) {
+      if (fixed_[row]) {
+        free[row] = 0;
+      } else {
+        free[row] = of[block_row_[row]];
+      }
+    }
   };
   const Eigen::Map<const VecX> M(inverse_diagonal_.data(), rows);
   const VecX pressed = schur_.solve(r.tail(n_cells()));
@@ -199,7 +229,9 @@ VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
 MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector<double>& b,
                                        const VecX& f, const VecX& g, double relative, int most,
                                        const Answer& from) const {
-  const Eigen::Index n = f.size(), cells = g.size(), all = n + cells;
+  const Eigen::Index n = f.size();
+  const Eigen::Index cells = g.size();
+  const Eigen::Index all = n + cells;
   VecX right(all), x = VecX::Zero(all), begin = VecX::Zero(all);
   right << f, g;
   const double wanted = relative * right.norm();
@@ -207,7 +239,8 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
     VecX of_f, of_g;
     product(from.d, from.q, of_f, of_g);
     begin << from.d, from.q;
-    right.head(n) -= of_f, right.tail(cells) -= of_g;
+    right.head(n) -= of_f;
+    right.tail(cells) -= of_g;
   }
   if (right.norm() <= wanted) return {begin.head(n), begin.tail(cells), 0, true};
   petsc_module::Krylov system;
@@ -220,8 +253,11 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
   system.precondition = [&](const double* from, double* to) {
     Eigen::Map<VecX>(to, all) = apply(b, Eigen::Map<const VecX>(from, all));
   };
-  system.right_side = right.data(), system.solution = x.data();
-  system.relative = wanted / right.norm(), system.most = most, system.ranks = ranks_;
+  system.right_side = right.data();
+  system.solution = x.data();
+  system.relative = wanted / right.norm();
+  system.most = most;
+  system.ranks = ranks_;
   const NoTraps in_petsc;
   const petsc_module::KrylovEnd end = module_.fgmres(system);
   x += begin;
@@ -231,7 +267,14 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
 double MixedSolver::bytes() const {
   // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors
   // of GMRES
-  const double entries = start_.empty() ? 0 : start_.back(), share = ranks_ ? 1.0 / ranks_->n() : 1;
+  double entries = 0;
+  if (start_.empty()) {
+    entries = 0;
+  } else {
+    entries = start_.back();
+  }
+  double share = 1;
+  if (ranks_) share = 1.0 / ranks_->n();
   return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes +
          8.0 * 2 * 20 * share * (pattern_.n + n_cells());
 }

@@ -119,7 +119,10 @@ void PressureSchur::take(const std::vector<int>& rank_of, const CellsOf& cells_o
   for (std::size_t node = 0; node < cells_of.size(); ++node) {
     counts_between[node] = 1;
     for (int e : cells_of[node])
-      if (!lies_between[e]) counts_between[node] = 0, counts[node] = rank_of[e] == rank;
+      if (!lies_between[e]) {
+        counts_between[node] = 0;
+        counts[node] = rank_of[e] == rank;
+      }
     for (int e : cells_of[node])
       if (counts[node] && lies_between[e]) on_rim[e] = 1;
   }
@@ -131,7 +134,8 @@ void PressureSchur::take(const std::vector<int>& rank_of, const CellsOf& cells_o
           cells.push_back(between[i]);
   own_ = part(std::move(cells), std::move(counts), cells_of, static_cast<int>(rim_.size()));
   between_ = part(std::move(between), std::move(counts_between), cells_of);
-  solver_.reset(), solver_between_.reset();
+  solver_.reset();
+  solver_between_.reset();
   if (own_.pattern.n > 0)
     solver_ = std::make_unique<LinearSolver>(own_.pattern, std::move(last), threads_);
 }
@@ -192,7 +196,8 @@ VecX PressureSchur::solve(const VecX& g) const {
   if (!division_) return solver_->solve(g);
   const Ranks& ranks = *division_->ranks;
   const int n = between_.pattern.n;
-  VecX own = VecX::Zero(own_.pattern.n), right = VecX::Zero(n);
+  VecX own = VecX::Zero(own_.pattern.n);
+  VecX right = VecX::Zero(n);
   for (int i = 0; i < n_own(); ++i) own[i] = g[own_.cells[i]];
   LinearSolver::Half half;
   if (solver_ && n > 0) {
@@ -223,11 +228,15 @@ VecX PressureSchur::solve(const VecX& g) const {
 }
 
 LinearSolver::Size PressureSchur::size() const {
-  LinearSolver::Size size = solver_ ? solver_->size() : LinearSolver::Size{};
-  const double n = between_.pattern.n, rim = static_cast<double>(rim_.size());
+  LinearSolver::Size size = LinearSolver::Size{};
+  if (solver_) size = solver_->size();
+  const double n = between_.pattern.n;
+  const double rim = static_cast<double>(rim_.size());
   size.factor_bytes += 8 * rim * rim + 8 * n * n;
   if (!division_ || !division_->ranks->first()) return size;
-  size.factor_bytes += 16 * n * n, size.factor_nonzeros += n * n / 2, size.flops += n * n * n / 3;
+  size.factor_bytes += 16 * n * n;
+  size.factor_nonzeros += n * n / 2;
+  size.flops += n * n * n / 3;
   return size;
 }
 

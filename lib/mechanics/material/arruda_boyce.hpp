@@ -24,14 +24,19 @@ struct ArrudaBoyce {
     constexpr double C[] = {1. / 2, 1. / 20, 11. / 1050, 19. / 7000, 519. / 673750};
     const double shrink = 1 / (locking_stretch * locking_stretch);
     //   I^i - 3^i = (I - 3) sum_{k<i} I^k 3^(i-1-k), which is exactly zero at rest
-    T sum = T{} + 1.0, power = T{} + 1.0, W = T{}, dW = T{}, ddW = T{};
+    T sum = T{} + 1.0;
+    T power = T{} + 1.0;
+    T W = T{};
+    T dW = T{};
+    T ddW = T{};
     double c = mu;
     T below = T{};  // I^(i-2)
     for (int i = 1; i <= 5; ++i, c *= shrink) {
       W += c * C[i - 1] * sum;
       dW += c * C[i - 1] * i * power;
       ddW += c * C[i - 1] * (i * (i - 1.)) * below;
-      below = power, power = power * I1_bar;
+      below = power;
+      power = power * I1_bar;
       sum = 3.0 * sum + power;
     }
     return {(I1_bar - 3.0) * W, dW, ddW};

@@ -46,9 +46,10 @@ inline bool possible_stretch(double lambda) {
 // invariant: of the term; J - 1 of a law of volume change
 template <class Law>
 double nan_outside_domain(const Law& law, double invariant) {
-  if constexpr (requires { exists(law, invariant); })
-    return exists(law, invariant) ? invariant : std::numeric_limits<double>::quiet_NaN();
-  else
+  if constexpr (requires { exists(law, invariant); }) {
+    if (exists(law, invariant)) return invariant;
+    return std::numeric_limits<double>::quiet_NaN();
+  } else
     return invariant;
 }
 

@@ -26,9 +26,12 @@ struct ExpPowFibre {
   template <class T>
   Energy<T> operator()(T I4_bar) const {
     using std::abs, std::expm1, std::pow;
-    const T x = I4_bar - 1.0, y = abs(x);
+    const T x = I4_bar - 1.0;
+    const T y = abs(x);
     const T power = beta == 2 ? T(1.0) : T(pow(y, beta - 2));  // y^(beta - 2)
-    const T y_beta = power * y * y, grown = expm1(T(alpha * y_beta)), e = 1.0 + grown;
+    const T y_beta = power * y * y;
+    const T grown = expm1(T(alpha * y_beta));
+    const T e = 1.0 + grown;
     const T W = alpha > 0 ? T(ksi / (alpha * beta) * grown) : T(ksi / beta * y_beta);
     return {W, ksi * x * power * e, ksi * power * e * ((beta - 1) + alpha * beta * y_beta)};
   }

@@ -24,7 +24,9 @@ struct HgoFibre {
   template <class T>
   Energy<T> operator()(T I4_bar) const {
     using std::exp;
-    const T x = I4_bar - 1.0, x2 = x * x, e = exp(c2 * x2);
+    const T x = I4_bar - 1.0;
+    const T x2 = x * x;
+    const T e = exp(c2 * x2);
     const T W = c2 > 1e-8 ? T(c1 / (2 * c2) * (e - 1.0)) : T((0.5 * c1) * x2);
     return {W, c1 * x * e, c1 * e * (1.0 + 2 * c2 * x2)};
   }

@@ -20,7 +20,9 @@ struct LogarithmicVolume {
   template <class T>
   Energy<T> of_change(T J_minus_1) const {
     using std::log1p;
-    const T L = log1p(J_minus_1), inverse = 1.0 / (1.0 + J_minus_1), slope = bulk_modulus * inverse;
+    const T L = log1p(J_minus_1);
+    const T inverse = 1.0 / (1.0 + J_minus_1);
+    const T slope = bulk_modulus * inverse;
     return {(0.5 * bulk_modulus) * L * L, slope * L, slope * inverse * (1.0 - L)};
   }
   template <class T>

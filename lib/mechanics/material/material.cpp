@@ -72,7 +72,8 @@ void complain_of_strengths(const Material& material, std::vector<Complaint>& fou
   if (material.spectrum) {
     double of_spectrum = 0;
     for (const ViscousBranch& branch : branches_of(*material.spectrum)) of_spectrum += branch.gamma;
-    sum += of_spectrum, last = "spectrum.c";
+    sum += of_spectrum;
+    last = "spectrum.c";
   }
   if (!alone && sum > most_gamma)
     found.push_back({last, fmt::format("found strengths that make {:g} in all", sum),

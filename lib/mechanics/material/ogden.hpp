@@ -36,7 +36,9 @@ struct Ogden {
     Energy<double> s{};
     for (const auto& [mu, alpha] : parts()) {
       if (mu == 0) continue;
-      const double log_e = std::log(e), up = std::expm1(alpha / 2 * log_e), q = alpha / 2 - 1;
+      const double log_e = std::log(e);
+      const double up = std::expm1(alpha / 2 * log_e);
+      const double q = alpha / 2 - 1;
       s.W += mu * (alpha == 0 ? log_e / 2 : up / alpha);
       const double slope = mu / 2 * (1 + up) / e;
       s.dW += slope;

@@ -72,7 +72,8 @@ void tell_apart(List& list) {
         break;
       }
   for (MaterialParameter* p : found) {
-    const auto last = p->key.rfind('.'), before = p->key.rfind('.', last - 1) + 1;
+    const auto last = p->key.rfind('.');
+    const auto before = p->key.rfind('.', last - 1) + 1;
     p->name = p->key.substr(before, last - before) + "_" + p->name;
   }
 }

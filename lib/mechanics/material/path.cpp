@@ -32,10 +32,16 @@ PathState on_path(const Material& material, Path path, double amount) {
   PathState s;
   if (!state.converged) return s;
   const auto nominal = measured_stress(state, test, StressMeasure::nominal);
-  s.exists = true, s.F = state.F, s.W = state.W;
+  s.exists = true;
+  s.F = state.F;
+  s.W = state.W;
   s.cauchy = measured_stress(state, test, StressMeasure::cauchy)[0];
   s.nominal = nominal[0];
-  s.work = path == Path::equibiaxial ? 0.5 * (nominal[0] + nominal[1]) : nominal[0];
+  if (path == Path::equibiaxial) {
+    s.work = 0.5 * (nominal[0] + nominal[1]);
+  } else {
+    s.work = nominal[0];
+  }
   return s;
 }
 

@@ -33,11 +33,16 @@ struct PowLinearFibre {
   template <class T>
   Energy<T> operator()(T I4_bar) const {
     using std::abs, std::pow, std::sqrt;
-    const double toe = lam0 * lam0 - 1,
-                 xi = E / (4 * (beta - 1)) / (lam0 * lam0 * lam0) * std::pow(toe, 2 - beta);
-    const double slope = xi * std::pow(toe, beta - 1), b = slope + E / (2 * lam0),
-                 W0 = slope * toe / beta;
-    const T x = I4_bar - 1.0, size = abs(x), I = 1.0 + size, root = sqrt(I), beyond = size - toe;
+    const double toe = lam0 * lam0 - 1;
+    const double xi = E / (4 * (beta - 1)) / (lam0 * lam0 * lam0) * std::pow(toe, 2 - beta);
+    const double slope = xi * std::pow(toe, beta - 1);
+    const double b = slope + E / (2 * lam0);
+    const double W0 = slope * toe / beta;
+    const T x = I4_bar - 1.0;
+    const T size = abs(x);
+    const T I = 1.0 + size;
+    const T root = sqrt(I);
+    const T beyond = size - toe;
     const T y = where_not_negative(beyond, T(toe), size);  // no overflow beyond the toe
     const T power = beta == 2 ? T(xi) : T(xi * pow(y, beta - 2));
     const T W =

@@ -17,7 +17,8 @@ template <class T>
 T minus_its_logarithm(T x) {
   using std::log1p;
   if (!within(x, 0.1)) return x - log1p(x);
-  const T r = x / (2.0 + x), s = r * r;
+  const T r = x / (2.0 + x);
+  const T s = r * r;
   const T series =
       1. / 3 +
       s * (1. / 5 + s * (1. / 7 + s * (1. / 9 + s * (1. / 11 + s * (1. / 13 + s * (1. / 15))))));
@@ -34,7 +35,8 @@ struct SimoTaylorVolume {
   // of J - 1, without cancellation
   template <class T>
   Energy<T> of_change(T J_minus_1) const {
-    const T x = J_minus_1, inverse = 1.0 / (1.0 + x);
+    const T x = J_minus_1;
+    const T inverse = 1.0 / (1.0 + x);
     return {(0.25 * bulk_modulus) * (x * x + 2.0 * minus_its_logarithm(x)),
             (0.5 * bulk_modulus) * (x + x * inverse),
             (0.5 * bulk_modulus) * (1.0 + inverse * inverse)};

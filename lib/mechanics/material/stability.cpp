@@ -21,12 +21,16 @@ double slope_at(const Material& material, Path path, double x) {
   if (!after.exists || !before.exists) return nan;
   const double width = x > 0 ? 2 * h : h, slope = (after.work - before.work) / width;
   const double noise = rounding * (std::abs(after.work) + std::abs(before.work)) / width;
-  return std::isless(slope, 0) && std::isgreater(slope, -noise) ? 0 : slope;
+  if (std::isless(slope, 0) && std::isgreater(slope, -noise)) return 0;
+  return slope;
 }
 
 double ellipticity_at(const Material& material, Path path, double x) {
   const PathState s = on_path(material, path, x);
-  return s.exists ? smallest_shear_stiffness(material, s.F, fibre_directions(material)).value : nan;
+  if (s.exists) {
+    return smallest_shear_stiffness(material, s.F, fibre_directions(material)).value;
+  }
+  return nan;
 }
 
 // first x at which `is` holds for f: the first interval with such an end, halved (NaN is compared
@@ -37,7 +41,8 @@ double first_place(const std::vector<double>& x, const std::vector<double>& valu
   if (found == values.end()) return inf;
   const auto i = static_cast<std::size_t>(found - values.begin());
   if (i == 0) return x[0];
-  double without = x[i - 1], with = x[i];
+  double without = x[i - 1];
+  double with = x[i];
   while (with - without > 1e-4) {
     const double middle = 0.5 * (without + with);
     (is(f(middle)) ? with : without) = middle;
@@ -60,7 +65,11 @@ PathStability path_stability(const Material& material, Path path,
                              const std::vector<double>& amount) {
   PathStability s;
   s.path = path;
-  s.angle = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
+  if (material.fibres.empty()) {
+    s.angle = 0;
+  } else {
+    s.angle = material.fibres[0].alpha_deg;
+  }
   for (double x : amount) {
     const PathState state = on_path(material, path, x);
     s.nominal.push_back(state.exists ? state.nominal : nan);
@@ -100,12 +109,15 @@ HenckyReach hencky_reach(const Material& material, double most) {
     h.diagonal().array() -= h.trace() / 3;
     const Eigen::SelfAdjointEigenSolver<Mat3> direction(Mat3(h / h.norm()));
     for (double r = step; r - step < std::min(reach.safe, most); r += step) {
-      const double here = std::min({r, reach.safe, most}), value = stiffness(direction, here);
+      const double here = std::min({r, reach.safe, most});
+      const double value = stiffness(direction, here);
       if (std::isgreaterequal(value, 0)) continue;
       const bool lost = is_lost(value);
-      double good = r - step, bad = here;
+      double good = r - step;
+      double bad = here;
       while (bad - good > 1e-3) {
-        const double middle = 0.5 * (good + bad), at = stiffness(direction, middle);
+        const double middle = 0.5 * (good + bad);
+        const double at = stiffness(direction, middle);
         (std::isgreaterequal(at, 0) || (lost && is_no_number(at)) ? good : bad) = middle;
       }
       (lost ? reach.safe : reach.end) = lost ? good : std::min(reach.end, good);
@@ -128,10 +140,15 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
     map.stretch.push_back(options.stretch_from + i * (options.stretch_to - options.stretch_from) /
                                                      (options.stretches - 1));
   map.plane.resize(options.stretches, options.stretches);
-  const auto angles = static_cast<int>(options.angles.size()),
-             n_paths = static_cast<int>(all_paths.size()) * angles;
+  const auto angles = static_cast<int>(options.angles.size());
+  const auto n_paths = static_cast<int>(all_paths.size()) * angles;
   map.paths.resize(static_cast<std::size_t>(n_paths));
-  const double own = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
+  double own = 0;
+  if (material.fibres.empty()) {
+    own = 0;
+  } else {
+    own = material.fibres[0].alpha_deg;
+  }
   const std::vector<Vec3> a = fibre_directions(material);
   const auto compute = [&](int, int job) {
     if (job < n_paths) {
@@ -143,14 +160,15 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
     } else if (job < n_paths + options.stretches) {
       const int row = job - n_paths;
       for (int column = 0; column < options.stretches; ++column) {
-        const double l1 = map.stretch[static_cast<std::size_t>(column)],
-                     l2 = map.stretch[static_cast<std::size_t>(row)];
+        const double l1 = map.stretch[static_cast<std::size_t>(column)];
+        const double l2 = map.stretch[static_cast<std::size_t>(row)];
         map.plane(row, column) =
             smallest_shear_stiffness(material, Vec3(l1, 1 / (l1 * l2), l2).asDiagonal(), a).value;
       }
     } else {
       const HenckyReach reach = hencky_reach(material, 1.2);
-      map.safe_hencky = reach.safe, map.hencky_end = reach.end;
+      map.safe_hencky = reach.safe;
+      map.hencky_end = reach.end;
     }
   };
   const int jobs = n_paths + options.stretches + 1;

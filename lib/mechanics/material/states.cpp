@@ -21,7 +21,10 @@ using Mat2 = Eigen::Matrix2d;
 
 Mat3 gradient(double lambda_x, double lambda_z, double g) {
   Mat3 F = Mat3::Zero();
-  F(0, 0) = lambda_x, F(1, 1) = 1 / (lambda_x * lambda_z), F(2, 2) = lambda_z, F(0, 2) = g;
+  F(0, 0) = lambda_x;
+  F(1, 1) = 1 / (lambda_x * lambda_z);
+  F(2, 2) = lambda_z;
+  F(0, 2) = g;
   return F;
 }
 
@@ -46,10 +49,17 @@ struct Sheet {
     const Mat3 F = gradient(lambda_x, std::exp(q[0]), q[1]);
     Sample s;
     const Mat3 C = right_cauchy_green(F);
-    s.r = memory ? incremental(material, C, a, *memory) : isochoric(material, C, a);
-    const Mat3 S = tensor(s.r.S), P = F * S;
+    if (memory) {
+      s.r = incremental(material, C, a, *memory);
+    } else {
+      s.r = isochoric(material, C, a);
+    }
+    const Mat3 S = tensor(s.r.S);
+    const Mat3 P = F * S;
     Mat3 dF[2] = {Mat3::Zero(), Mat3::Zero()};
-    dF[0](2, 2) = F(2, 2), dF[0](1, 1) = -F(1, 1), dF[1](0, 2) = 1;
+    dF[0](2, 2) = F(2, 2);
+    dF[0](1, 1) = -F(1, 1);
+    dF[1](0, 2) = 1;
     Vec6 dE[2];
     for (int i = 0; i < 2; ++i) {
       const Mat3 FdF = F.transpose() * dF[i];
@@ -65,7 +75,9 @@ struct Sheet {
     for (int i = 0; i < 2; ++i)
       if (!(i == 0 ? free_width : free_shear)) {
         s.slope[i] = 0;
-        s.curvature.row(i).setZero(), s.curvature.col(i).setZero(), s.curvature(i, i) = 1;
+        s.curvature.row(i).setZero();
+        s.curvature.col(i).setZero();
+        s.curvature(i, i) = 1;
       }
     if (!std::isfinite(s.r.W) || !s.slope.allFinite() || !s.curvature.allFinite())
       return std::nullopt;
@@ -79,7 +91,13 @@ Vec2 step(const Sample& s) {
   const Vec2 along = eigen.eigenvectors().transpose() * s.slope;
   const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
-  for (int i = 0; i < 2; ++i) d[i] = along[i] == 0 ? 0 : -along[i] / curvature[i];
+  for (int i = 0; i < 2; ++i) {
+    if (along[i] == 0) {
+      d[i] = 0;
+    } else {
+      d[i] = -along[i] / curvature[i];
+    }
+  }
   return eigen.eigenvectors() * d;
 }
 
@@ -101,12 +119,16 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
       const auto next = sheet.at(q + d);
       // near the minimum W has no digits left to compare, there the slope decides
       downhill = next && (next->r.W < s->r.W || steepness(*next) < 0.5 * steepness(*s));
-      if (downhill) q += d, s = next;
+      if (downhill) {
+        q += d;
+        s = next;
+      }
       if (downhill) break;
     }
   }
   if (!s) return false;
-  S = s->r.S, W = s->r.W;
+  S = s->r.S;
+  W = s->r.W;
   return steepness(*s) <= acceptable;
 }
 
@@ -122,14 +144,22 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
                        double first, double second, OffAxisShear shear, const PointMemory* memory) {
   const bool slides = kind == TestKind::simple_shear;
   const double lambda_x = slides ? 1 : first;
-  double lambda_z = kind == TestKind::biaxial ? second : kind == TestKind::equibiaxial ? first : 1;
+  double lambda_z = 0;
+  if (kind == TestKind::biaxial) {
+    lambda_z = second;
+  } else if (kind == TestKind::equibiaxial) {
+    lambda_z = first;
+  } else {
+    lambda_z = 1;
+  }
   PlaneState state;
   if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) ||
       !std::isless(std::abs(first), largest_stretch))
     return state;
   if (kind == TestKind::uniaxial) lambda_z = 1 / std::sqrt(lambda_x);
   Vec2 q(std::log(lambda_z), slides ? first : 0);
-  const bool off_axis = !axial(a), free_width = kind == TestKind::uniaxial && off_axis;
+  const bool off_axis = !axial(a);
+  const bool free_width = kind == TestKind::uniaxial && off_axis;
   const bool free_shear = shear == OffAxisShear::free && !slides && off_axis;
   Vec6 S;
   if (free_width) {
@@ -143,7 +173,8 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
     const Mat3 C = right_cauchy_green(state.F);
     const Response r =
         memory ? incremental(material, C, a, *memory, false) : isochoric(material, C, a, false);
-    S = r.S, state.W = r.W;
+    S = r.S;
+    state.W = r.W;
   }
   state.sigma = cauchy(state.F, S, 1);
   state.sigma -= state.sigma(1, 1) * Mat3::Identity();
@@ -154,8 +185,12 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
 std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind,
                                       StressMeasure measure) {
   // F and sigma in the plane; the thickness carries nothing
-  const double fx = state.F(0, 0), fz = state.F(2, 2), g = state.F(0, 2);
-  const double xx = state.sigma(0, 0), zz = state.sigma(2, 2), xz = state.sigma(0, 2);
+  const double fx = state.F(0, 0);
+  const double fz = state.F(2, 2);
+  const double g = state.F(0, 2);
+  const double xx = state.sigma(0, 0);
+  const double zz = state.sigma(2, 2);
+  const double xz = state.sigma(0, 2);
   const bool slides = kind == TestKind::simple_shear;
   switch (measure) {
     case StressMeasure::cauchy:

@@ -32,12 +32,15 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
     if (c != ' ' && c != '\t') plain += c;
   std::string_view text = plain;
   Tie tie{key, "", 1, 0};
-  if (!text.empty() && (text[0] == '-' || text[0] == '+'))
-    tie.factor = text[0] == '-' ? -1 : 1, text.remove_prefix(1);
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) {
+    tie.factor = text[0] == '-' ? -1 : 1;
+    text.remove_prefix(1);
+  }
   if (!text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.')) {
     const auto factor = number_at(text);
     if (!factor || text.empty() || text[0] != '*') return std::nullopt;
-    tie.factor *= *factor, text.remove_prefix(1);
+    tie.factor *= *factor;
+    text.remove_prefix(1);
   }
   const auto of_key = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '[' ||
@@ -59,9 +62,14 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
 }
 
 std::string tie_text(const Tie& tie) {
-  std::string text = tie.factor == 1    ? ""
-                     : tie.factor == -1 ? "-"
-                                        : fmt::format("{} * ", tie.factor);
+  std::string text;
+  if (tie.factor == 1) {
+    text = "";
+  } else if (tie.factor == -1) {
+    text = "-";
+  } else {
+    text = fmt::format("{} * ", tie.factor);
+  }
   text += tie.of;
   if (tie.offset != 0)
     text += fmt::format(" {} {}", tie.offset < 0 ? '-' : '+', std::abs(tie.offset));
@@ -81,8 +89,9 @@ ResolvedTies resolved(const std::vector<Tie>& ties) {
         break;
       }
       //   f (f' x + o') + o
-      whole.offset += whole.factor * next->offset, whole.factor *= next->factor,
-          whole.of = next->of;
+      whole.offset += whole.factor * next->offset;
+      whole.factor *= next->factor;
+      whole.of = next->of;
     }
     result.ties.push_back(whole);
   }
@@ -90,8 +99,12 @@ ResolvedTies resolved(const std::vector<Tie>& ties) {
 }
 
 TiedNumbers::TiedNumbers(Material& material, const std::vector<Tie>& ties) {
-  const std::vector<MaterialParameter> all =
-      ties.empty() ? std::vector<MaterialParameter>() : parameters(material);
+  std::vector<MaterialParameter> all;
+  if (ties.empty()) {
+    all = std::vector<MaterialParameter>();
+  } else {
+    all = parameters(material);
+  }
   const auto number = [&](const std::string& key) {
     for (const MaterialParameter& p : all)
       if (p.key == key) return p.value;

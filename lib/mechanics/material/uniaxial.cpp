@@ -48,7 +48,8 @@ struct Pull {
     s.H(1, 1) = M(1, 1) - M(1, 2) - M(2, 1) + M(2, 2);
     s.scale.setConstant(tau.cwiseAbs().maxCoeff() + std::abs(s.H(1, 1)));
     if (incompressible) {
-      s.g[0] = s.H(0, 1) = s.H(1, 0) = 0, s.H(0, 0) = 1;
+      s.g[0] = s.H(0, 1) = s.H(1, 0) = 0;
+      s.H(0, 0) = 1;
     } else {
       const double J = std::exp(ln_J);
       const Energy<double> U = volume_energy(material.volume, std::expm1(ln_J));
@@ -73,7 +74,13 @@ Vec2 step(const Pulled& s) {
   const Vec2 along = eigen.eigenvectors().transpose() * s.g;
   const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
-  for (int i = 0; i < 2; ++i) d[i] = along[i] == 0 ? 0 : -along[i] / curvature[i];
+  for (int i = 0; i < 2; ++i) {
+    if (along[i] == 0) {
+      d[i] = 0;
+    } else {
+      d[i] = -along[i] / curvature[i];
+    }
+  }
   return eigen.eigenvectors() * d;
 }
 
@@ -85,7 +92,8 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
   u.stretch[0] = lambda;
   if (!possible_stretch(lambda)) return u;
   const Pull pull{material, fibre_directions(material), std::log(lambda), incompressible};
-  double ln_J = 0, z = -0.5 * pull.x;
+  double ln_J = 0;
+  double z = -0.5 * pull.x;
   std::optional<Pulled> s = pull.at(ln_J, z);
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !small(s->g, s->scale, enough);
@@ -98,7 +106,8 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
       downhill = next && (next->W < s->W || next->g.cwiseQuotient(s->scale).norm() <
                                                 0.5 * s->g.cwiseQuotient(s->scale).norm());
       if (!downhill) continue;
-      ln_J += d[0], z += d[1];
+      ln_J += d[0];
+      z += d[1];
       s = next;
       break;
     }

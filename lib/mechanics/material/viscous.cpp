@@ -16,7 +16,8 @@ std::vector<ViscousBranch> branches_of(const Spectrum& spectrum) {
 
 void amplify(Amplified& amplified, BranchOf of, double follow) {
   const Amplified share = only(of);
-  amplified.matrix += share.matrix * follow, amplified.fibres += share.fibres * follow;
+  amplified.matrix += share.matrix * follow;
+  amplified.fibres += share.fibres * follow;
 }
 
 }  // namespace langer

@@ -13,10 +13,13 @@ struct Box {
   VecX value, lower, upper;
   explicit Box(const Design& design) {
     const auto k = static_cast<Eigen::Index>(design.parameters.size());
-    value.resize(k), lower.resize(k), upper.resize(k);
+    value.resize(k);
+    lower.resize(k);
+    upper.resize(k);
     for (Eigen::Index i = 0; i < k; ++i) {
       const DesignParameter& p = design.parameters[static_cast<std::size_t>(i)];
-      lower[i] = p.lower, upper[i] = p.upper,
+      lower[i] = p.lower;
+      upper[i] = p.upper;
       value[i] = p.value.value_or(0.5 * (p.lower + p.upper));
     }
   }
@@ -26,7 +29,8 @@ QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   const Box box(design);
   QuantityEffects e;
   SamplingOptions options;
-  options.seed = static_cast<std::uint64_t>(design.seed), options.resamples = design.resamples;
+  options.seed = static_cast<std::uint64_t>(design.seed);
+  options.resamples = design.resamples;
   const CurveMaker maker = [&] {
     return phi;
   };
@@ -106,7 +110,8 @@ QuantityEffects effects_of(const Design& design, const std::string& name, const 
     y = VecX::Constant(1, answers.at(list(p)));
     return true;
   });
-  e.name = name, e.unit = unit;
+  e.name = name;
+  e.unit = unit;
   return e;
 }
 

@@ -35,8 +35,8 @@ std::vector<Value> values(const QuantityEffects& e, Eigen::Index i) {
     const Estimate& x = estimate();
     all.push_back({name, share, x.value(i, 0), x.low(i, 0), x.high(i, 0)});
   };
-  const bool morris = e.morris && e.morris->trajectories >= 2,
-             sobol = e.sobol && e.sobol->rows >= 2;
+  const bool morris = e.morris && e.morris->trajectories >= 2;
+  const bool sobol = e.sobol && e.sobol->rows >= 2;
   add("morris_mu_star", false, morris, [&]() -> const Estimate& { return e.morris->mu_star; });
   add("morris_sigma", false, morris, [&]() -> const Estimate& { return e.morris->sigma; });
   add("sobol_first", true, sobol, [&]() -> const Estimate& { return e.sobol->first; });
@@ -51,8 +51,8 @@ const Value& named(const std::vector<Value>& all, std::string_view name) {
 Bars bars_of(const Design& design, const QuantityEffects& e,
              const std::vector<std::pair<std::string, std::string>>& series) {
   Bars b;
-  const auto k = static_cast<Eigen::Index>(design.parameters.size()),
-             n = static_cast<Eigen::Index>(series.size());
+  const auto k = static_cast<Eigen::Index>(design.parameters.size());
+  const auto n = static_cast<Eigen::Index>(series.size());
   b.values = b.low = b.high = MatX::Constant(n, k, none);
   for (const DesignParameter& p : design.parameters) b.groups.push_back(short_name(p));
   for (Eigen::Index s = 0; s < n; ++s) {
@@ -60,7 +60,8 @@ Bars bars_of(const Design& design, const QuantityEffects& e,
     for (Eigen::Index i = 0; i < k; ++i) {
       const std::vector<Value> all = values(e, i);
       const Value& v = named(all, series[static_cast<std::size_t>(s)].first);
-      b.values(s, i) = v.value, b.low(s, i) = std::isnan(v.low) ? v.value : v.low;
+      b.values(s, i) = v.value;
+      b.low(s, i) = std::isnan(v.low) ? v.value : v.low;
       b.high(s, i) = std::isnan(v.high) ? v.value : v.high;
     }
   }
@@ -84,9 +85,13 @@ std::string effects_csv(const Design& design, const std::vector<QuantityEffects>
                           number_text(p.upper));
       for (const Value& v : values(e, static_cast<Eigen::Index>(i))) {
         const bool interval = !std::string(v.name).starts_with("one_at_a_time");
-        if (!headed)
-          text +=
-              interval ? fmt::format(",{0},{0}_low,{0}_high", v.name) : fmt::format(",{}", v.name);
+        if (!headed) {
+          if (interval) {
+            text += fmt::format(",{0},{0}_low,{0}_high", v.name);
+          } else {
+            text += fmt::format(",{}", v.name);
+          }
+        }
         rows += "," + cell(v.value);
         if (interval) rows += "," + cell(v.low) + "," + cell(v.high);
       }
@@ -110,7 +115,12 @@ std::vector<std::string> effects_lines(const Design& design, const QuantityEffec
     for (const auto& [key, word] : words) said.push_back(word);
     return fmt::format("{}", fmt::join(said, ", "));
   };
-  const std::string unit = e.unit == "-" ? "" : ", " + e.unit;
+  std::string unit;
+  if (e.unit == "-") {
+    unit = "";
+  } else {
+    unit = ", " + e.unit;
+  }
   if (e.one_at_a_time && e.one_at_a_time->complete)
     lines.push_back(fmt::format("{}: one at a time{}: {}", e.name, unit,
                                 ranked("one_at_a_time", [](const auto& all) {
@@ -141,18 +151,24 @@ std::vector<std::string> effects_lines(const Design& design, const QuantityEffec
 Bars effects_bars(const Design& design, const QuantityEffects& e) {
   std::vector<std::pair<std::string, std::string>> series;
   if (e.one_at_a_time) series.push_back({"one_at_a_time", "one at a time: μ*"});
-  if (e.morris)
-    series.push_back({"morris_mu_star", "Morris: μ*"}),
-        series.push_back({"morris_sigma", "Morris: σ"});
+  if (e.morris) {
+    series.push_back({"morris_mu_star", "Morris: μ*"});
+    series.push_back({"morris_sigma", "Morris: σ"});
+  }
   Bars b = bars_of(design, e, series);
   b.title = fmt::format("what the parameters do to {} over their ranges", e.name);
-  b.y_label = e.unit == "-" ? e.name : fmt::format("{} ({})", e.name, e.unit);
+  if (e.unit == "-") {
+    b.y_label = e.name;
+  } else {
+    b.y_label = fmt::format("{} ({})", e.name, e.unit);
+  }
   return b;
 }
 
 Bars share_bars(const Design& design, const QuantityEffects& e) {
   Bars b = bars_of(design, e, {{"sobol_first", "alone"}, {"sobol_total", "in all"}});
-  b.title = "Sobol: shares of the variance of " + e.name, b.y_label = "share";
+  b.title = "Sobol: shares of the variance of " + e.name;
+  b.y_label = "share";
   return b;
 }
 

@@ -16,7 +16,8 @@ namespace {
 const Summary* find(const std::vector<Summary>& summary, const std::string& name) {
   const auto it = std::find_if(summary.begin(), summary.end(),
                                [&](const Summary& s) { return s.name == name; });
-  return it == summary.end() ? nullptr : &*it;
+  if (it == summary.end()) return nullptr;
+  return &*it;
 }
 
 std::vector<std::string> all_names(const std::vector<GatherInput>& members) {
@@ -35,7 +36,10 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
     const Summary* s = find(m.summary, name);
     c.values.push_back(s ? s->value : std::numeric_limits<double>::quiet_NaN());
     if (!s) continue;
-    if (!first) c.unit = s->unit, first = &m;
+    if (!first) {
+      c.unit = s->unit;
+      first = &m;
+    }
     if (s->unit != c.unit)
       throw Failure(Exit::input, Error{{m.path, 0, 0},
                                        name,

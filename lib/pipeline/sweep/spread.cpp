@@ -21,7 +21,8 @@ double mean_of(const std::vector<double>& v) {
 
 // sum of (a - mean)(b - mean)/(n - 1)
 double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
-  const double ma = mean_of(a), mb = mean_of(b);
+  const double ma = mean_of(a);
+  const double mb = mean_of(b);
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - ma) * (b[i] - mb);
   return sum / static_cast<double>(a.size() - 1);
@@ -36,12 +37,13 @@ double percentile(std::vector<double> v, double part) {
 double read_at(const Column& x, const Column& y, double at) {
   const std::size_t n = std::min(x.values.size(), y.values.size());
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double a = x.values[i], b = x.values[i + 1];
+    const double a = x.values[i];
+    const double b = x.values[i + 1];
     if (a == b || (at - a) * (at - b) > 0) continue;
     return y.values[i] + (at - a) / (b - a) * (y.values[i + 1] - y.values[i]);
   }
-  return std::abs(at - x.values[0]) < std::abs(at - x.values[n - 1]) ? y.values[0]
-                                                                     : y.values[n - 1];
+  if (std::abs(at - x.values[0]) < std::abs(at - x.values[n - 1])) return y.values[0];
+  return y.values[n - 1];
 }
 
 }  // namespace
@@ -76,14 +78,18 @@ Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& para
   Spread spread{column.name, column.unit, none, none, none, none};
   if (there.size() < 2) return spread;
   const std::vector<double> v = chosen(column.values);
-  spread.mean = mean_of(v), spread.deviation = std::sqrt(covariance_of(v, v));
-  spread.low = percentile(v, 0.025), spread.high = percentile(v, 0.975);
+  spread.mean = mean_of(v);
+  spread.deviation = std::sqrt(covariance_of(v, v));
+  spread.low = percentile(v, 0.025);
+  spread.high = percentile(v, 0.975);
   for (const SweepColumn& p : parameters) {
     const std::vector<double> q = chosen(p.values);
-    const double variance = covariance_of(q, q), both = covariance_of(v, q);
-    const double part = variance > 0 && spread.deviation > 0
-                            ? both * both / (variance * spread.deviation * spread.deviation)
-                            : 0;
+    const double variance = covariance_of(q, q);
+    const double both = covariance_of(v, q);
+    double part = 0;
+    if (variance > 0 && spread.deviation > 0) {
+      part = both * both / (variance * spread.deviation * spread.deviation);
+    }
     spread.parts.push_back({p.name.substr(std::string(prefix).size()),
                             spread.deviation * std::sqrt(std::max(0.0, 1 - part))});
   }
@@ -142,7 +148,8 @@ Band band_of(const std::string& figure, const std::vector<const Column*>& x,
       at.push_back(read_at(*x[k], *y[k], x[0]->values[row]));
     band.mean.values[row] = mean_of(at);
     band.deviation.values[row] = std::sqrt(covariance_of(at, at));
-    band.low.values[row] = percentile(at, 0.025), band.high.values[row] = percentile(at, 0.975);
+    band.low.values[row] = percentile(at, 0.025);
+    band.high.values[row] = percentile(at, 0.975);
   }
   return band;
 }
@@ -152,19 +159,24 @@ void write_spread(const h5::Group& root, const std::vector<Spread>& all,
   const auto write_interval = [](const h5::Group& group, const std::vector<double>& low,
                                  const std::vector<double>& high, const std::string& unit) {
     std::vector<double> both;
-    for (std::size_t i = 0; i < low.size(); ++i) both.push_back(low[i]), both.push_back(high[i]);
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      both.push_back(low[i]);
+      both.push_back(high[i]);
+    }
     group.write<double>("interval", {low.size(), 2}, both, unit);
   };
   const h5::Group spreads = root.make_group("spread");
   for (const Spread& one : all) {
     const h5::Group group = spreads.make_group(one.name);
-    group.write_scalar("mean", one.mean, one.unit),
-        group.write_scalar("deviation", one.deviation, one.unit);
+    group.write_scalar("mean", one.mean, one.unit);
+    group.write_scalar("deviation", one.deviation, one.unit);
     write_interval(group, {one.low}, {one.high}, one.unit);
     std::vector<double> without;
     std::vector<std::string> order;
-    for (const Spread::Part& part : one.parts)
-      without.push_back(part.without), order.push_back(part.name);
+    for (const Spread::Part& part : one.parts) {
+      without.push_back(part.without);
+      order.push_back(part.name);
+    }
     group.write<double>("without", {without.size()}, without, one.unit);
     group.attribute("order", fmt::format("{}", fmt::join(order, " ")));
   }
@@ -176,7 +188,8 @@ void write_spread(const h5::Group& root, const std::vector<Spread>& all,
     group.write<double>("mean", {n}, band.mean.values, band.mean.unit);
     group.write<double>("deviation", {n}, band.deviation.values, band.mean.unit);
     write_interval(group, band.low.values, band.high.values, band.mean.unit);
-    group.attribute("x", band.x.name), group.attribute("y", band.mean.name);
+    group.attribute("x", band.x.name);
+    group.attribute("y", band.mean.name);
   }
 }
 

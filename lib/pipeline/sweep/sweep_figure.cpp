@@ -35,10 +35,17 @@ std::string member_text(const std::string& pattern, const std::vector<SweepAxis>
                         const std::vector<std::string>& at) {
   std::string values;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const std::string unit = a < axes.size() && axes[a].unit != "-" ? axes[a].unit : "";
+    std::string unit;
+    if (a < axes.size() && axes[a].unit != "-") unit = axes[a].unit;
     if (a > 0) values += ", ";
     values += at[a];
-    if (pattern.empty() && !unit.empty()) values += unit == "deg" ? "°" : " " + unit;
+    if (pattern.empty() && !unit.empty()) {
+      if (unit == "deg") {
+        values += "°";
+      } else {
+        values += " " + unit;
+      }
+    }
   }
   std::string text = pattern.empty() ? "{}" : pattern;
   for (std::size_t i = text.find("{}"); i != std::string::npos;
@@ -55,7 +62,8 @@ struct Table {
   std::vector<std::vector<double>> columns;
 
   std::string add(const std::string& head, std::vector<double> values) {
-    heads.push_back(head), columns.push_back(std::move(values));
+    heads.push_back(head);
+    columns.push_back(std::move(values));
     return head;
   }
   std::string csv() const {
@@ -78,7 +86,8 @@ std::string shown(const std::string& name) {
   const auto lines = quantity_lines();
   const auto found = std::find_if(lines.begin(), lines.end(),
                                   [&](const QuantityLine& line) { return line.word == name; });
-  return found == lines.end() ? literal(name) : found->label;
+  if (found == lines.end()) return literal(name);
+  return found->label;
 }
 
 [[noreturn]] void unknown(const Place& place, const std::string& key, const std::string& name,
@@ -113,11 +122,20 @@ class Drawer {
       over_curves();
     else
       over_axis(static_cast<std::size_t>(axis - axes_.begin()));
-    const std::string y_label = figure_.y_label         ? *figure_.y_label
-                                : figure_.y.size() == 1 ? shown(figure_.y[0])
-                                                        : "";
+    std::string y_label;
+    if (figure_.y_label) {
+      y_label = *figure_.y_label;
+    } else if (figure_.y.size() == 1) {
+      y_label = shown(figure_.y[0]);
+    } else {
+      y_label = "";
+    }
     data_.plot.y_label_is_unit = y_label.empty();
-    data_.plot.y_label = y_label.empty() ? y_unit_ : with_unit(y_label, y_unit_);
+    if (y_label.empty()) {
+      data_.plot.y_label = y_unit_;
+    } else {
+      data_.plot.y_label = with_unit(y_label, y_unit_);
+    }
     data_.csv = table_.csv();
     return std::move(data_);
   }
@@ -140,19 +158,23 @@ class Drawer {
                           fmt::format("{} in {}", figure_.y[i], unit), "names in " + y_unit_, ""});
   }
   std::string legend(std::size_t i, const std::string& member) const {
-    const std::string name = figure_.legends.empty() ? shown(figure_.y[i]) : figure_.legends[i];
+    std::string name = figure_.legends[i];
+    if (figure_.legends.empty()) name = shown(figure_.y[i]);
     if (member.empty()) return name;
     const bool alone =
         figure_.y.size() == figure_.once.size() + 1;  // of those drawn for each member
-    return alone && figure_.legends.empty() ? member : name + ", " + member;
+    if (alone && figure_.legends.empty()) return member;
+    return name + ", " + member;
   }
   // several y of several members: colours are the y, dashes the members
   void add_line(const std::string& x, const std::string& y, std::size_t i, std::size_t member,
                 const std::string& member_name) {
     PlotLine line{file_, x, y, legend(i, member_name)};
     line.values = !member_name.empty() && figure_.member.empty();
-    if (figure_.y.size() > figure_.once.size() + 1 && !member_name.empty())
-      line.colour = static_cast<int>(i), line.dash = static_cast<int>(member);
+    if (figure_.y.size() > figure_.once.size() + 1 && !member_name.empty()) {
+      line.colour = static_cast<int>(i);
+      line.dash = static_cast<int>(member);
+    }
     line.points = std::find(figure_.markers.begin(), figure_.markers.end(), figure_.y[i]) !=
                   figure_.markers.end();
     data_.plot.lines.push_back(line);
@@ -187,8 +209,8 @@ class Drawer {
       for (const auto& [value, member] : points) x.push_back(value);
       if (axes_[axis].unit == "deg" && x.back() - x.front() >= 90 && x.back() - x.front() <= 360)
         data_.plot.x_step = 30;
-      const std::string ending =
-          others.size() > 1 ? fmt::format("_{}", fmt::join(others[g], "_")) : "";
+      std::string ending;
+      if (others.size() > 1) ending = fmt::format("_{}", fmt::join(others[g], "_"));
       const std::string x_head = table_.add(csv_name(figure_.x + ending, axes_[axis].unit), x);
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
         std::vector<double> y;
@@ -220,9 +242,12 @@ class Drawer {
       const bool shared = k > 0 && x.values == column(members_[0], "x", figure_.x).values;
       const std::string ending =
           "_" + (m.at.empty() ? std::to_string(k + 1) : fmt::format("{}", fmt::join(m.at, "_")));
-      const std::string x_head =
-          shared ? csv_name(x.name, x.unit)
-                 : table_.add(csv_name(x.name + (k ? ending : ""), x.unit), x.values);
+      std::string x_head;
+      if (shared) {
+        x_head = csv_name(x.name, x.unit);
+      } else {
+        x_head = table_.add(csv_name(x.name + (k ? ending : ""), x.unit), x.values);
+      }
       data_.plot.x_label = with_unit(figure_.x_label.value_or(shown(figure_.x)), x.unit);
       data_.plot.rows = std::max(data_.plot.rows, static_cast<int>(x.values.size()));
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
@@ -232,8 +257,12 @@ class Drawer {
         if (once && k > 0) continue;
         take_unit(i, y.unit);
         const std::string y_head = table_.add(csv_name(y.name + ending, y.unit), y.values);
-        const std::string name =
-            m.at.empty() ? ending.substr(1) : literal(member_text(figure_.member, axes_, m.at));
+        std::string name;
+        if (m.at.empty()) {
+          name = ending.substr(1);
+        } else {
+          name = literal(member_text(figure_.member, axes_, m.at));
+        }
         add_line(x_head, y_head, i, k, once ? "" : name);
       }
     }
@@ -252,14 +281,15 @@ class Drawer {
       take_unit(i, y[0]->unit);
       const Band band = band_of(name_, x, y);
       const std::string unit = y[0]->unit;
-      const std::string mean = table_.add(csv_name(figure_.y[i] + "_mean", unit), band.mean.values),
-                        deviation = table_.add(csv_name(figure_.y[i] + "_deviation", unit),
-                                               band.deviation.values);
+      const std::string mean = table_.add(csv_name(figure_.y[i] + "_mean", unit), band.mean.values);
+      const std::string deviation =
+          table_.add(csv_name(figure_.y[i] + "_deviation", unit), band.deviation.values);
       table_.add(csv_name(figure_.y[i] + "_lower_95", unit), band.low.values);
       table_.add(csv_name(figure_.y[i] + "_upper_95", unit), band.high.values);
       PlotLine line{file_, x_head, mean, legend(i, "")};
       line.error = deviation;
-      data_.plot.lines.push_back(line), data_.bands.push_back(band);
+      data_.plot.lines.push_back(line);
+      data_.bands.push_back(band);
     }
   }
 

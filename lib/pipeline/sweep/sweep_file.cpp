@@ -52,18 +52,22 @@ void write_effects(const h5::Group& root, const Design& design,
     };
     const auto write_estimate = [&](const std::string& name, const Estimate& x,
                                     const std::string& unit) {
-      write(name, x.value, unit), write(name + "_low", x.low, unit),
-          write(name + "_high", x.high, unit);
+      write(name, x.value, unit);
+      write(name + "_low", x.low, unit);
+      write(name + "_high", x.high, unit);
     };
-    if (e.one_at_a_time && e.one_at_a_time->complete)
-      write("one_at_a_time", e.one_at_a_time->mu_star, e.unit),
-          write("one_at_a_time_spread", e.one_at_a_time->spread, e.unit);
-    if (e.morris && e.morris->trajectories >= 2)
-      write_estimate("morris_mu_star", e.morris->mu_star, e.unit),
-          write_estimate("morris_sigma", e.morris->sigma, e.unit);
-    if (e.sobol && e.sobol->rows >= 2)
-      write_estimate("sobol_first", e.sobol->first, "-"),
-          write_estimate("sobol_total", e.sobol->total, "-");
+    if (e.one_at_a_time && e.one_at_a_time->complete) {
+      write("one_at_a_time", e.one_at_a_time->mu_star, e.unit);
+      write("one_at_a_time_spread", e.one_at_a_time->spread, e.unit);
+    }
+    if (e.morris && e.morris->trajectories >= 2) {
+      write_estimate("morris_mu_star", e.morris->mu_star, e.unit);
+      write_estimate("morris_sigma", e.morris->sigma, e.unit);
+    }
+    if (e.sobol && e.sobol->rows >= 2) {
+      write_estimate("sobol_first", e.sobol->first, "-");
+      write_estimate("sobol_total", e.sobol->total, "-");
+    }
   }
 }
 
@@ -77,7 +81,8 @@ void write_sweep(const std::string& path, const std::string& csv_path, const Swe
   h5::File file = h5::File::create(path);
   write_identity(file.root(), sweep_schema, identity);
   file.root().write_text("members", fmt::format("{}", fmt::join(sweep.members, "\n")));
-  const h5::Group axes = file.root().make_group("axis"), values = file.root().make_group("values");
+  const h5::Group axes = file.root().make_group("axis");
+  const h5::Group values = file.root().make_group("values");
   for (const SweepAxis& axis : sweep.axes) write_axis(axes, axis);
   for (const SweepColumn& c : sweep.columns)
     values.write<double>(c.name, {c.values.size()}, c.values, c.unit);

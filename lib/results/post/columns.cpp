@@ -15,8 +15,12 @@ namespace langer {
 namespace {
 
 double extent(const Mesh& mesh, int axis) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3& X : mesh.X) low = std::min(low, X[axis]), high = std::max(high, X[axis]);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Vec3& X : mesh.X) {
+    low = std::min(low, X[axis]);
+    high = std::max(high, X[axis]);
+  }
   return high - low;
 }
 
@@ -33,7 +37,8 @@ std::string known(const std::vector<std::string>& names) {
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
   const std::string near = nearest(name, names);
-  return near.empty() ? "" : fmt::format("did you mean \"{}\"?", near);
+  if (near.empty()) return "";
+  return fmt::format("did you mean \"{}\"?", near);
 }
 
 }  // namespace
@@ -78,7 +83,10 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
   std::vector<std::string> names, units, found_units;
   for (const auto* list : {&columns, &further})
     for (const ColumnChoice& c : *list)
-      if (!c.quotient) names.push_back(column_name(c)), units.push_back(unit_of(c));
+      if (!c.quotient) {
+        names.push_back(column_name(c));
+        units.push_back(unit_of(c));
+      }
   std::vector<Complaint> complaints;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string& name = (*choice.quotient)[i];
@@ -114,7 +122,8 @@ std::string unit_of(const ColumnChoice& choice) {
 
 std::string label_of(const ColumnChoice& choice) {
   if (choice.quotient) return literal((*choice.quotient)[0] + " / " + (*choice.quotient)[1]);
-  return choice.quantity ? line_of(*choice.quantity).label : literal(*choice.history);
+  if (choice.quantity) return line_of(*choice.quantity).label;
+  return literal(*choice.history);
 }
 
 std::string error_of(const std::string& column) { return column + "_error"; }
@@ -158,8 +167,10 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
       if (std::find(histories.begin(), histories.end(), taken) == histories.end()) return;
       if (std::find(names.begin(), names.end(), name) != names.end()) return;
       ColumnChoice further;
-      further.history = taken, further.name = name;
-      out.push_back(further), names.push_back(name);
+      further.history = taken;
+      further.name = name;
+      out.push_back(further);
+      names.push_back(name);
     };
     add(history, error_of(column_name(c)));
     if (word == "force") add("force_deviation", column_name(c) + "_deviation");
@@ -189,9 +200,12 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
     };
     Measure m;
     m.name = column_name(c);
-    m.unit = unit_of(c), m.label = label_of(c);
-    m.quantity = c.quantity, m.quotient = c.quotient;
-    m.zero_at = c.zero_at, m.key = fmt::format("{}[{}]", key, i);
+    m.unit = unit_of(c);
+    m.label = label_of(c);
+    m.quantity = c.quantity;
+    m.quotient = c.quotient;
+    m.zero_at = c.zero_at;
+    m.key = fmt::format("{}[{}]", key, i);
     if (c.quotient) {
       out.measures.push_back(std::move(m));  // the config knows that its columns are there
       continue;
@@ -234,8 +248,13 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       if (is<OfBody>(line) && line.needs.fibres && body.n_families() == 0)
         complain("quantity", fmt::format("{} of a material without fibres", line.word),
                  "another quantity", "");
-      if (line.needs.extent >= 0)
-        m.length = c.length ? *c.length : extent(body.mesh(), line.needs.extent);
+      if (line.needs.extent >= 0) {
+        if (c.length) {
+          m.length = *c.length;
+        } else {
+          m.length = extent(body.mesh(), line.needs.extent);
+        }
+      }
     }
     out.measures.push_back(std::move(m));
   }

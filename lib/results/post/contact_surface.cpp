@@ -30,9 +30,13 @@ ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates)
 void ContactSurface::fold(std::vector<Vec3>& area) const {
   const auto layer = static_cast<std::size_t>(n_front(mesh_));
   for (std::size_t i = layer; i < area.size(); ++i) area[i % layer] += area[i];
-  for (std::size_t i = 0; i < area.size(); ++i)
-    area[i] = i < layer ? Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0))
-                        : Vec3(Vec3::Zero());
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    if (i < layer) {
+      area[i] = Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0));
+    } else {
+      area[i] = Vec3(Vec3::Zero());
+    }
+  }
 }
 
 ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
@@ -61,7 +65,8 @@ ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecor
     state.area += size;
     state.pressure_max = std::max(state.pressure_max, state.pressure[node]);
   }
-  spread_to_hanging(mesh_, state.traction), spread_to_hanging(mesh_, state.pressure);
+  spread_to_hanging(mesh_, state.traction);
+  spread_to_hanging(mesh_, state.pressure);
   state.radius = std::sqrt(state.area / std::numbers::pi);
   return state;
 }
@@ -74,7 +79,8 @@ void add_contact_numbers(std::map<std::string, double>& numbers,
     const auto surface = surfaces.find(name);
     if (surface == surfaces.end()) continue;
     const ContactPerArea state = surface->second.at(record.u, contact);
-    area += state.area, pressure = std::max(pressure, state.pressure_max);
+    area += state.area;
+    pressure = std::max(pressure, state.pressure_max);
   }
   if (surfaces.empty()) return;
   numbers["contact_area"] = area, numbers["contact_radius"] = std::sqrt(area / std::numbers::pi);
@@ -87,11 +93,12 @@ void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& 
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto node = static_cast<std::size_t>(candidates[i]);
     ContactNode& here = nodes[node];
-    const double pressure = state.pressure[node], all = state.traction[node].norm();
+    const double pressure = state.pressure[node];
+    const double all = state.traction[node].norm();
     here.status = std::max(here.status, contact.status[i]);
     if (!slip.empty()) here.slip = std::max(here.slip, slip[i]);
     if (all == 0 || pressure < here.pressure) continue;
-    here.pressure = pressure,
+    here.pressure = pressure;
     here.friction = std::sqrt(std::max(0.0, all * all - pressure * pressure));
   }
 }

@@ -25,8 +25,11 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
     for (int g = 0; g < gauss[e].rows(); ++g) {
       const VecX row = gauss[e].row(g).transpose();
       const Mat3 sigma = sigma_of(row);
-      if (const double s = von_mises(sigma); s > all.von_mises)
-        all.von_mises = s, cell = e, point = g;
+      if (const double s = von_mises(sigma); s > all.von_mises) {
+        all.von_mises = s;
+        cell = e;
+        point = g;
+      }
       all.J = std::min(all.J, J_of(row));
       all.pressure_min = std::min(all.pressure_min, mean_stress(sigma));
       all.pressure_max = std::max(all.pressure_max, mean_stress(sigma));
@@ -46,7 +49,8 @@ double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets,
   double volume = 0;
   for (const Facet& facet : facets) {
     const auto nodes = mesh.cell(facet.cell);
-    ElementNodes X = element_nodes(mesh, facet.cell), moved = X;
+    ElementNodes X = element_nodes(mesh, facet.cell);
+    ElementNodes moved = X;
     for (std::size_t a = 0; a < nodes.size(); ++a)
       moved.row(static_cast<Eigen::Index>(a)) = u[nodes[a]].transpose();
     for (const auto& [s, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}})
@@ -54,7 +58,8 @@ double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets,
           weight *
           follower_pressure(mesh.cell(), facet.local, X + s * moved).cwiseProduct(moved).sum();
   }
-  return mesh.section ? cell_share(*mesh.section) * volume : volume;
+  if (mesh.section) return cell_share(*mesh.section) * volume;
+  return volume;
 }
 
 }  // namespace

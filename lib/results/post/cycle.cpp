@@ -15,20 +15,27 @@ using Complex = std::complex<double>;
 // 2/p integral of f exp(-i w t) from `from` to from + p
 Complex harmonic(const std::vector<double>& t, const std::vector<double>& f, double from,
                  double period) {
-  const double w = 2 * std::numbers::pi / period, to = from + period;
+  const double w = 2 * std::numbers::pi / period;
+  const double to = from + period;
   const Complex i(0, 1);
   Complex sum = 0;
   for (std::size_t k = 1; k < t.size(); ++k) {
-    const double a = std::max(from, t[k - 1]), b = std::min(to, t[k]);
+    const double a = std::max(from, t[k - 1]);
+    const double b = std::min(to, t[k]);
     if (!(b > a)) continue;
     const double slope = (f[k] - f[k - 1]) / (t[k] - t[k - 1]);
     // of the line and of its slope, from the middle of the interval: no cancellation where it is
     // short
-    const double half = 0.5 * (b - a), x = w * half,
-                 middle = f[k - 1] + slope * (0.5 * (a + b) - t[k - 1]);
+    const double half = 0.5 * (b - a);
+    const double x = w * half;
+    const double middle = f[k - 1] + slope * (0.5 * (a + b) - t[k - 1]);
     const double of_one = 2 * half * (x > 0 ? std::sin(x) / x : 1);
-    const double of_line = x > 1e-2 ? 2 * (std::sin(x) - x * std::cos(x)) / (w * w)
-                                    : 2 * half * half * x * (1 - x * x / 10) / 3;
+    double of_line = 0;
+    if (x > 1e-2) {
+      of_line = 2 * (std::sin(x) - x * std::cos(x)) / (w * w);
+    } else {
+      of_line = 2 * half * half * x * (1 - x * x / 10) / 3;
+    }
     sum += std::exp(-i * (w * (0.5 * (a + b) - from))) * (middle * of_one - i * slope * of_line);
   }
   return 2 / period * sum;
@@ -38,7 +45,8 @@ Complex harmonic(const std::vector<double>& t, const std::vector<double>& f, dou
 
 Cycle last_cycle(const std::vector<double>& seconds, const std::vector<double>& x,
                  const std::vector<double>& y, double period) {
-  const double last = seconds.back() - period, before = last - period;
+  const double last = seconds.back() - period;
+  const double before = last - period;
   const auto modulus = [&](double from) {
     return harmonic(seconds, y, from, period) / harmonic(seconds, x, from, period);
   };

@@ -15,7 +15,8 @@ const char* where(const QuantityLine& line) {
     return "at a place (`at:` a node set or observation point), mean over its nodes";
   if (is<OfSet>(line)) return "of a node set (`at:`)";
   if (is<OfBody>(line)) return "extreme over the whole body";
-  return line.needs.contact ? "of the indenter; needs a contact" : "of the whole state";
+  if (line.needs.contact) return "of the indenter; needs a contact";
+  return "of the whole state";
 }
 
 std::string line(const std::string& name, const std::string& unit, const std::string& meaning) {

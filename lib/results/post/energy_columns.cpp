@@ -24,30 +24,37 @@ Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPat
   const auto position = [&](int node) {
     return Vec3(mesh.X[node] + from.u[node] - c);
   };
-  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0)),
-               way = dc.dot(contact.control->along);
-  return free < way ? Vec3(dc - free * contact.control->along) : dc;
+  const double free = std::max(0.0, travel_to_touch(pushed, 0, 0, position).value_or(0));
+  const double way = dc.dot(contact.control->along);
+  if (free < way) return Vec3(dc - free * contact.control->along);
+  return dc;
 }
 
 // Of a body of revolution what points away from the axis is that of the whole circle, and cancels.
 Vec3 of_circle(const Mesh& mesh, const Vec3& sum) {
-  return mesh.section && mesh.section->of == SectionOf::axisymmetric ? Vec3(0, sum[1], 0) : sum;
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric) {
+    return Vec3(0, sum[1], 0);
+  }
+  return sum;
 }
 
 // What bonds make of the force on the body that pulls it towards the indenter, along the mean
 // normal of what bears [N].
 double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state,
                std::size_t k, const Vec3& c) {
-  Vec3 force = Vec3::Zero(), normal = Vec3::Zero();
+  Vec3 force = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const Vec3 &r = state.r[k][i], &bond = state.bonds[k][i];
     if (r.isZero(0) && bond.isZero(0)) continue;
     const int node = contact.nodes[i];
     const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
-    force += r + bond, normal += (r.norm() + bond.norm()) * n;
+    force += r + bond;
+    normal += (r.norm() + bond.norm()) * n;
   }
   normal = of_circle(mesh, normal);
-  return normal.isZero(0) ? 0 : std::max(0.0, -force.dot(normal.normalized()));
+  if (normal.isZero(0)) return 0;
+  return std::max(0.0, -force.dot(normal.normalized()));
 }
 
 }  // namespace
@@ -64,13 +71,16 @@ EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
 void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
                              std::vector<Vec3>& rates) {
   const RigidContact& contact = contacts_[k];
-  const Vec3 c0 = indenter_displacement(contact, last_.t),
-             c = indenter_displacement(contact, now.t), dc = c - c0;
+  const Vec3 c0 = indenter_displacement(contact, last_.t);
+  const Vec3 c = indenter_displacement(contact, now.t);
+  const Vec3 dc = c - c0;
   rates.push_back(dc / step.dt);
   if (k == 0) {
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : now.r[0]) force += r;
-    step.way = dc.norm(), step.travel = c.norm(), step.force = of_circle(mesh_, force).norm();
+    step.way = dc.norm();
+    step.travel = c.norm();
+    step.force = of_circle(mesh_, force).norm();
   }
   if (!now.bonds.empty() && !now.bonds[k].empty())
     step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
@@ -90,13 +100,17 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];
     const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
-    from_contact.begin[node] += r0, from_contact.end[node] += r1;
-    step.begin += r0.dot(worked), step.end += r1.dot(worked);
+    from_contact.begin[node] += r0;
+    from_contact.end[node] += r1;
+    step.begin += r0.dot(worked);
+    step.end += r1.dot(worked);
     for (const auto& [state, from, power] :
          {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin},
           {&now, &from_contact.end, &step.end}})
-      if (k < state->bonds.size() && !state->bonds[k].empty())
-        (*from)[node] += state->bonds[k][i], *power += state->bonds[k][i].dot(worked);
+      if (k < state->bonds.size() && !state->bonds[k].empty()) {
+        (*from)[node] += state->bonds[k][i];
+        *power += state->bonds[k][i].dot(worked);
+      }
     // the slip lies in the tangent plane of the state whose reaction it meets; the part along the
     // normal is no slip
     const Vec3 x0 = mesh_.X[node] + last_.u[node];
@@ -124,7 +138,8 @@ EnergyPath::Ends EnergyPath::imposed(const State& now) const {
   for (std::size_t i = 0; i < now.u.size(); ++i) du.begin.push_back(now.u[i] - last_.u[i]);
   du.end = du.begin;
   for (const TurnedSet& set : turned_) {
-    const Vec3 p0 = set.axis_at(last_.t), p = set.axis_at(now.t);
+    const Vec3 p0 = set.axis_at(last_.t);
+    const Vec3 p = set.axis_at(now.t);
     const Vec3 turn = (set.angle.at(now.t) - set.angle.at(last_.t)) * set.axis.along;
     for (int node : set.nodes) {
       du.begin[node] = p - p0 + cross(turn, mesh_.X[node] + last_.u[node] - p0);
@@ -150,22 +165,26 @@ void EnergyPath::add(State now) {
     if (now.loads.size() > 0) {
       const auto row = 3 * static_cast<Eigen::Index>(i);
       const Vec3 moved = now.u[i] - last_.u[i];
-      step.begin += last_.loads.segment<3>(row).dot(moved),
-          step.end += now.loads.segment<3>(row).dot(moved);
+      step.begin += last_.loads.segment<3>(row).dot(moved);
+      step.end += now.loads.segment<3>(row).dot(moved);
     }
     step.begin += (last_.reaction[i] - from_contact.begin[i]).dot(du.begin[i]);
     step.end += (now.reaction[i] - from_contact.end[i]).dot(du.end[i]);
   }
-  step.begin /= step.dt, step.end /= step.dt;
+  step.begin /= step.dt;
+  step.end /= step.dt;
   for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
     step.goes_on =
         (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
   for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
   if (const double jump = now.jumps - last_.jumps; jump != 0 || jumped_) {
-    step.goes_on = false, jumped_ = jump != 0;
-    if (jumped_)
-      step.begin = step.end = jump / step.dt,
-      step.dissipated = 0;  // friction in a jump is part of what it releases
+    step.goes_on = false;
+    jumped_ = jump != 0;
+    if (jumped_) {
+      // friction in a jump is part of what it releases
+      step.begin = step.end = jump / step.dt;
+      step.dissipated = 0;
+    }
   }
   intervals_.push_back(step);
   rates_ = std::move(rates);
@@ -187,12 +206,13 @@ std::vector<PathSums> EnergyPath::sums() const {
     int neighbours = 0;
     if (here.goes_on) {
       const Interval& before = intervals_[k - 1];
-      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt),
-          ++neighbours;
+      curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt);
+      ++neighbours;
     }
     if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
       const Interval& after = intervals_[k + 1];
-      curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt), ++neighbours;
+      curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt);
+      ++neighbours;
     }
     if (neighbours > 0) curvature /= neighbours;
     PathSums& sum = all[k + 1];

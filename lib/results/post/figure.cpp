@@ -16,7 +16,8 @@ namespace {
 const ColumnChoice* find(const std::vector<ColumnChoice>& columns, const std::string& name) {
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const auto& c) { return column_name(c) == name; });
-  return found == columns.end() ? nullptr : &*found;
+  if (found == columns.end()) return nullptr;
+  return &*found;
 }
 
 }  // namespace
@@ -44,9 +45,10 @@ PointColumns read_points(const FigurePoints& points,
 
 std::string legend_of(const ColumnChoice& choice) {
   if (choice.name || !choice.quantity) return literal(column_name(choice));
-  const std::string family = line_of(*choice.quantity).needs.fibres && choice.family > 1
-                                 ? fmt::format(", family {}", choice.family)
-                                 : "";
+  std::string family;
+  if (line_of(*choice.quantity).needs.fibres && choice.family > 1) {
+    family = fmt::format(", family {}", choice.family);
+  }
   return label_of(choice) + (choice.at ? " at " + literal(*choice.at) : "") + family;
 }
 
@@ -94,8 +96,11 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
     return label_of(*find(columns, name)) == label_of(y);
   });
   plot.y_label_is_unit = !figure.y_label && !alike;
-  plot.y_label = plot.y_label_is_unit ? unit_of(y)
-                                      : with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
+  if (plot.y_label_is_unit) {
+    plot.y_label = unit_of(y);
+  } else {
+    plot.y_label = with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
+  }
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
     plot.lines.push_back(
         {csv, head_of(figure.x), head_of(figure.y[i]),

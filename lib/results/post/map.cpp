@@ -85,15 +85,23 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
   double p = 0.5, q = 0.5;
   for (int iteration = 0; iteration < 30; ++iteration) {  // Newton
     const double N[] = {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
-    const double Np[] = {-(1 - q), 1 - q, q, -q}, Nq[] = {-(1 - p), -p, p, 1 - p};
-    double f[2] = {-place[0], -place[1]}, fp[2] = {0, 0}, fq[2] = {0, 0};
+    const double Np[] = {-(1 - q), 1 - q, q, -q};
+    Nq[] = {-(1 - p), -p, p, 1 - p};
+    double f[2] = {-place[0], -place[1]};
+    fp[2] = {0, 0};
+    fq[2] = {0, 0};
     for (int i = 0; i < 2; ++i)
-      for (int k = 0; k < 4; ++k)
-        f[i] += N[k] * corner[k][i], fp[i] += Np[k] * corner[k][i], fq[i] += Nq[k] * corner[k][i];
+      for (int k = 0; k < 4; ++k) {
+        f[i] += N[k] * corner[k][i];
+        fp[i] += Np[k] * corner[k][i];
+        fq[i] += Nq[k] * corner[k][i];
+      }
     const double det = fp[0] * fq[1] - fp[1] * fq[0];
     if (det == 0) return {};
-    const double dp = (f[0] * fq[1] - f[1] * fq[0]) / det, dq = (fp[0] * f[1] - fp[1] * f[0]) / det;
-    p -= dp, q -= dq;
+    const double dp = (f[0] * fq[1] - f[1] * fq[0]) / det;
+    const double dq = (fp[0] * f[1] - fp[1] * f[0]) / det;
+    p -= dp;
+    q -= dq;
     if (std::abs(dp) + std::abs(dq) < 1e-13) break;
   }
   if (!(p >= -slack && p <= 1 + slack && q >= -slack && q <= 1 + slack)) return {};
@@ -126,7 +134,8 @@ double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond) {
     if (const auto value = value_at(a, b.places[i]))
       most = std::max(most, std::abs(*value - b.values[i]));
   }
-  return size > 0 ? most / size : 0;
+  if (size > 0) return most / size;
+  return 0;
 }
 
 }  // namespace langer

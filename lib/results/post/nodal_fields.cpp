@@ -103,7 +103,9 @@ VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt 
       sum += w * values.row(cell.nearest_gauss[a]).transpose();
     V += w;
   }
-  return V > 0 ? VecX(sum / V) : sum;  // a node of no cell carries nothing
+  // a node of no cell carries nothing
+  if (V > 0) return VecX(sum / V);
+  return sum;
 }
 
 }  // namespace langer

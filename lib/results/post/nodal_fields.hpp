@@ -36,7 +36,10 @@ class Body {
   const Mesh& mesh() const { return mesh_; }
   Formulation formulation() const { return formulation_; }
   const Material& material(int e) const { return materials_[region(e)]; }
-  int region(int e) const { return materials_.size() > 1 ? mesh_.body[e] : 0; }
+  int region(int e) const {
+    if (materials_.size() > 1) return mesh_.body[e];
+    return 0;
+  }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }  // unit, reference state
   int n_families() const { return n_families_; }    // the most that any cell has
@@ -45,7 +48,8 @@ class Body {
   // gauss_values() has those told last.
   void tell_branches(std::vector<std::vector<Vec6>> branches) { branches_ = std::move(branches); }
   std::span<const Vec6> branches(int e) const {
-    return branches_.empty() ? std::span<const Vec6>() : branches_[static_cast<std::size_t>(e)];
+    if (branches_.empty()) return std::span<const Vec6>();
+    return branches_[static_cast<std::size_t>(e)];
   }
   bool viscous() const { return ViscousPoints::needed(materials_); }
   const std::vector<Material>& materials() const { return materials_; }

@@ -42,18 +42,19 @@ Vec3 middle(const Mesh& mesh, int e) {
 // least squares; of a patch that does not decide its polynomial the smallest one
 MatX fit(const MatX& A, const MatX& values) {
   const PivotedQr qr(A);
-  return qr.rank() == A.cols() ? qr.solve_columns(values)
-                               : LeastNorm(A, 1e-6).solve_columns(values);
+  if (qr.rank() == A.cols()) return qr.solve_columns(values);
+  return LeastNorm(A, 1e-6).solve_columns(values);
 }
 
 }  // namespace
 
 Patches::Patches(const Body& body) : body_(body) {
   const ReferenceCell& cell = body.mesh().cell();
-  dim_ = body.mesh().section ? 2 : 3, degree_ = cell.second_order() ? 3 : 2,
+  dim_ = body.mesh().section ? 2 : 3;
+  degree_ = cell.second_order() ? 3 : 2;
   n_corners_ = cell.n_corners;
   in_corners_ = !cell.second_order();
-  powers_of_nodes_ = powers_up_to(degree_, dim_),
+  powers_of_nodes_ = powers_up_to(degree_, dim_);
   powers_of_points_ = powers_up_to(degree_ - 1, dim_);
   find_patches();
   find_inside();
@@ -62,7 +63,12 @@ Patches::Patches(const Body& body) : body_(body) {
 
 void Patches::find_patches() {
   const Mesh& mesh = body_.mesh();
-  const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
+  int front = 0;
+  if (mesh.section) {
+    front = n_front(mesh);
+  } else {
+    front = mesh.n_nodes();
+  }
   std::map<std::pair<int, int>, int> known;  // region, node
   patch_of_.resize(static_cast<std::size_t>(mesh.n_cells() * n_corners_));
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -156,7 +162,11 @@ MatX Patches::at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3
     const auto p = static_cast<std::size_t>(q);
     const MatX here = fitted[p].transpose() * terms(patches_[p], X, gradient) /
                       static_cast<double>(patch.deputies.size());
-    out = out.size() == 0 ? here : MatX(out + here);
+    if (out.size() == 0) {
+      out = here;
+    } else {
+      out = MatX(out + here);
+    }
   }
   return out;
 }
@@ -191,7 +201,12 @@ MatX Patches::blended(const std::vector<MatX>& of, int e, int g, bool gradient) 
 
 Patches::Smooth Patches::of_nodes(const MatX& values) const {
   const Mesh& mesh = body_.mesh();
-  const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
+  int front = 0;
+  if (mesh.section) {
+    front = n_front(mesh);
+  } else {
+    front = mesh.n_nodes();
+  }
   std::vector<MatX> fitted;
   for (const Patch& patch : patches_) {
     std::set<int> nodes;
@@ -223,7 +238,7 @@ Patches::Smooth Patches::of_points(const std::vector<MatX>& values) const {
     for (int e : patch.cells)
       for (Eigen::Index g = 0; g < points; ++g) {
         const Vec3 X = points > 1 ? gauss_position(mesh, e, static_cast<int>(g)) : middle(mesh, e);
-        A.row(row) = terms(patch, X, false).transpose(),
+        A.row(row) = terms(patch, X, false).transpose();
         b.row(row++) = values[static_cast<std::size_t>(e)].row(g);
       }
     fitted.push_back(patch.serves ? fit(A, b) : MatX());

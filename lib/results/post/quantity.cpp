@@ -25,7 +25,8 @@ double history(const StepState& s) {
 
 double force(const StepState& s) {
   const double travel = s.u_ind.norm();
-  return travel > 0 ? -s.force_ind.dot(s.u_ind) / travel : s.force_ind.norm();
+  if (travel > 0) return -s.force_ind.dot(s.u_ind) / travel;
+  return s.force_ind.norm();
 }
 
 // clang-format off

@@ -21,7 +21,8 @@ std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int regio
         cell.at_nodes * gauss[e].leftCols<6>();
     for (int a = 0; a < cell.n_nodes; ++a) {
       const int node = mesh.cell(e)[a];
-      sum[node] += body.geometry(e).V * at_nodes.row(a).transpose(), V[node] += body.geometry(e).V;
+      sum[node] += body.geometry(e).V * at_nodes.row(a).transpose();
+      V[node] += body.geometry(e).V;
     }
   }
   for (std::size_t i = 0; i < sum.size(); ++i)
@@ -66,7 +67,10 @@ int n_regions(const Body& body) {
 
 struct Energies {
   double error = 0, whole = 0;
-  double eta() const { return whole > 0 ? std::sqrt(error / whole) : 0; }
+  double eta() const {
+    if (whole > 0) return std::sqrt(error / whole);
+    return 0;
+  }
 };
 // of_cell: where the error of each is put, or nullptr
 void add_region(Energies& energies, const Body& body, const GaussValues& gauss,
@@ -75,13 +79,14 @@ void add_region(Energies& energies, const Body& body, const GaussValues& gauss,
   const ReferenceCell& cell = mesh.cell();
   for (int e = 0; e < mesh.n_cells(); ++e) {
     if (body.region(e) != region) continue;
-    const double mu = shear_modulus(body.material(e)), before = energies.error;
+    const double mu = shear_modulus(body.material(e));
+    const double before = energies.error;
     for (int g = 0; g < cell.n_gauss; ++g) {
       Vec6 s = Vec6::Zero();
       for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
       const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
-      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose()),
-          energies.whole += w * deviatoric(s);
+      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose());
+      energies.whole += w * deviatoric(s);
     }
     if (of_cell) (*of_cell)[static_cast<std::size_t>(e)] = energies.error - before;
   }
@@ -110,13 +115,21 @@ RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (body.region(e) != region) continue;
       for (int node : mesh.cell(e))
-        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max)
-          out.von_mises_max = here, worst = node;
+        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max) {
+          out.von_mises_max = here;
+          worst = node;
+        }
     }
     if (worst >= 0) out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
   }
   out.eta = energies.eta();
-  for (double& part : out.of_cell) part = energies.whole > 0 ? part / energies.whole : 0;
+  for (double& part : out.of_cell) {
+    if (energies.whole > 0) {
+      part = part / energies.whole;
+    } else {
+      part = 0;
+    }
+  }
   return out;
 }
 

@@ -29,7 +29,8 @@ struct Item {
 
 // The eye's axes as rows: right, up, towards the eye.
 Mat3 eye(const std::array<double, 2>& view) {
-  const double a = view[0] * std::numbers::pi / 180, e = view[1] * std::numbers::pi / 180;
+  const double a = view[0] * std::numbers::pi / 180;
+  const double e = view[1] * std::numbers::pi / 180;
   Mat3 R;
   R << std::cos(a), 0, -std::sin(a),                                        //
       -std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a),  //
@@ -68,12 +69,14 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
                     const std::string& label, double bar_room, ColourMap colours) {
   constexpr int bands = 128;
   // label above, the axes below
-  const double x = drawing.width - bar_room + 30, width = 22,
-               height = std::min(300.0, drawing.height - title_room - 190);
+  const double x = drawing.width - bar_room + 30;
+  const double width = 22;
+  const double height = std::min(300.0, drawing.height - title_room - 190);
   const double top = title_room + (drawing.height - title_room - height - 100) / 2;
   for (int i = 0; i < bands; ++i) {
     // from the top, each down to the end: no seams
-    const double y0 = top + height * i / bands, y1 = top + height;
+    const double y0 = top + height * i / bands;
+    const double y1 = top + height;
     drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}},
                                   scale_colour(1 - (i + 0.5) / bands, colours)});
   }
@@ -124,9 +127,12 @@ std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>
 }
 
 void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, const Colour& colour) {
-  const double dx = to[0] - from[0], dy = to[1] - from[1],
-               length = std::max(std::hypot(dx, dy), 1e-9), head = std::min(11.0, length);
-  const double ex = dx / length, ey = dy / length;
+  const double dx = to[0] - from[0];
+  const double dy = to[1] - from[1];
+  const double length = std::max(std::hypot(dx, dy), 1e-9);
+  const double head = std::min(11.0, length);
+  const double ex = dx / length;
+  const double ey = dy / length;
   const PagePoint neck{to[0] - head * ex, to[1] - head * ey};
   drawing.marks.push_back(Stroke{{from, neck}, colour, 2});
   drawing.marks.push_back(Patch{{to,
@@ -171,7 +177,10 @@ void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, cons
     for (const Vec3& x : action.at) {
       const auto [from, to] = arrow_of(action, x, size);
       add_arrow(drawing, page(R * from), page(R * to), colour);
-      if ((R * x)[2] > nearest) nearest = (R * x)[2], end = action.moves ? to : from;
+      if ((R * x)[2] > nearest) {
+        nearest = (R * x)[2];
+        end = action.moves ? to : from;
+      }
     }
     const Vec3 out = action.moves ? action.along : Vec3(-action.along);
     const PagePoint at = page(R * Vec3(end + 0.035 * size * out));
@@ -203,7 +212,8 @@ std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vecto
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int f = 0; kept[e] && f < mesh.cell().n_facets(); ++f) {
       auto& entry = seen[facet_key(mesh, {e, f})];
-      ++entry.first, entry.second = {e, f};
+      ++entry.first;
+      entry.second = {e, f};
     }
   std::vector<std::array<int, 4>> surface;
   for (const auto& [key, entry] : seen) {
@@ -264,7 +274,10 @@ void look_at_indenters(const RenderScene& scene, const RenderChoice& choice, See
   for (const Outline& indenter : scene.indenters) {
     OpenedOutline& part = seen.indenters.emplace_back(opened(indenter, choice.cuts));
     for (Outline* outline : {&part.kept, &part.cap})
-      for (Vec3& x : outline->points) x = seen.R * x, seen.box.extend(x);
+      for (Vec3& x : outline->points) {
+        x = seen.R * x;
+        seen.box.extend(x);
+      }
   }
 }
 
@@ -280,9 +293,10 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
     for (const Vec3& c : corners) seen.box.extend(c);
     if (normal_of(corners)[2] <= 0) continue;
     if (!scene.values.empty())
-      for (int node : nodes)
-        seen.low = std::min(seen.low, scene.values[node]),
+      for (int node : nodes) {
+        seen.low = std::min(seen.low, scene.values[node]);
         seen.high = std::max(seen.high, scene.values[node]);
+      }
     seen.quads.push_back({nodes, corners});
   }
   look_at_indenters(scene, choice, seen);
@@ -293,19 +307,31 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
     for (const auto& edge : seen.outline)
       for (int node : edge) seen.box.extend(Vec3(R * mesh.X[node]));
   }
-  seen.extent = seen.box.isEmpty() ? 1 : seen.box.sizes().norm();
+  if (seen.box.isEmpty()) {
+    seen.extent = 1;
+  } else {
+    seen.extent = seen.box.sizes().norm();
+  }
   for (const Action& action : scene.actions)
     for (const Vec3& at : action.at) {
       const auto [from, to] = arrow_of(action, at, seen.extent);
-      const Vec3 far = R * Vec3(action.moves ? to : from),
-                 label(0.11 * seen.extent, 0.04 * seen.extent, 0);
-      seen.box.extend(far), seen.box.extend(far + label), seen.box.extend(far - label);
+      const Vec3 far = R * Vec3(action.moves ? to : from);
+      const Vec3 label(0.11 * seen.extent, 0.04 * seen.extent, 0);
+      seen.box.extend(far);
+      seen.box.extend(far + label);
+      seen.box.extend(far - label);
     }
-  if (choice.range) seen.low = (*choice.range)[0], seen.high = (*choice.range)[1];
+  if (choice.range) {
+    seen.low = (*choice.range)[0];
+    seen.high = (*choice.range)[1];
+  }
   seen.coloured =
       !scene.values.empty() && seen.low <= seen.high;  // nothing to be seen, no colour bar
-  if (!(seen.high - seen.low > 1e-12 * std::max(std::abs(seen.low), std::abs(seen.high))))
-    seen.low -= 0.5, seen.high += 0.5;  // one value everywhere
+  if (!(seen.high - seen.low > 1e-12 * std::max(std::abs(seen.low), std::abs(seen.high)))) {
+    // one value everywhere
+    seen.low -= 0.5;
+    seen.high += 0.5;
+  }
   return seen;
 }
 
@@ -337,8 +363,10 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, Co
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
     for (int i = 0; i < m && m > 1 && seen.coloured; ++i)
       for (int j = 0; j < m; ++j) {
-        const double p0 = double(i) / m, p1 = double(i + 1) / m, q0 = double(j) / m,
-                     q1 = double(j + 1) / m;
+        const double p0 = double(i) / m;
+        const double p1 = double(i + 1) / m;
+        const double q0 = double(j) / m;
+        const double q1 = double(j + 1) / m;
         item.marks.push_back(Patch{{at(p0, q0), at(p1, q0), at(p1, q1), at(p0, q1)},
                                    colour_at((p0 + p1) / 2, (q0 + q1) / 2)});
       }
@@ -386,7 +414,8 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look&
   const bool titled = look.titles && !choice.title.empty();
   const double title_room = titled ? 40 : 0, page_width = look.width.value_or(960),
                bar_room = page_width < 500 ? 118 : 150;
-  const double room = page_width - bar_room - 2 * margin, tallest = page_width / 1.5;
+  const double room = page_width - bar_room - 2 * margin;
+  const double tallest = page_width / 1.5;
   const Vec3 size = seen.box.isEmpty() ? Vec3(1, 1, 1) : Vec3(seen.box.sizes());
   Page page;
   page.scale = std::min(room / size[0], tallest / size[1]);

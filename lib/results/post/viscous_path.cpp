@@ -15,7 +15,8 @@ void ViscousPath::add(const Body& body, double time, const std::vector<Vec3>& u)
     points_.accept(e, body.geometry(e), element_displacements(body.mesh(), u_, e), q);
   }
   points_.accepted();
-  time_ = time, u_ = u;
+  time_ = time;
+  u_ = u;
 }
 
 void ViscousPath::tell(Body& body) const {

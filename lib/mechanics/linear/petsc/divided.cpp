@@ -34,7 +34,11 @@ class DividedAggregation : public Multigrid {
     const InOrder sums(ranks_.n());
     const bool anew =
         !again || !A_;  // A as well: one that has been used before has other last digits
-    if (anew) clear(), number(A), make(A);
+    if (anew) {
+      clear();
+      number(A);
+      make(A);
+    }
     add(A);
     if (anew) make_cycle(rigid, A.n);
     need(PCSetUp(cycle_));
@@ -52,7 +56,8 @@ class DividedAggregation : public Multigrid {
   void number(const Rows& A) {
     const int nodes = A.n / 3;
     std::vector<int> counts(static_cast<std::size_t>(ranks_.n()), 0);
-    order_.clear(), place_.assign(static_cast<std::size_t>(A.n), 0);
+    order_.clear();
+    place_.assign(static_cast<std::size_t>(A.n), 0);
     for (int k = 0; k < ranks_.n(); ++k)
       for (int i = 0; i < nodes; ++i)
         if (A.rank_of_node[i] == k) {
@@ -74,7 +79,8 @@ class DividedAggregation : public Multigrid {
                                                                        : beside)[place_of(row)];
     for (std::vector<int>* counts : {&within, &beside})
       MPI_Allreduce(MPI_IN_PLACE, counts->data(), A.n, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
-    const int own = shares_->own(), before = shares_->before();
+    const int own = shares_->own();
+    const int before = shares_->before();
     for (int& count : within) count = std::min(count, own);
     for (int& count : beside) count = std::min(count, A.n - own);
     need(MatCreate(PETSC_COMM_WORLD, &A_));
@@ -96,21 +102,27 @@ class DividedAggregation : public Multigrid {
     for (int row = 0; row < A.n; ++row)
       if (const auto of = static_cast<std::size_t>(A.rank_of_node[row / 3]);
           static_cast<int>(of) != ranks_.rank())
-        for (int at = A.start[row]; at < A.start[row + 1]; ++at)
-          from[of].push_back(at), places[of].push_back(place_of(row)),
-              places[of].push_back(place_of(A.column[at]));
-    out_.clear(), in_.assign(n, 0), n_out_.clear();
+        for (int at = A.start[row]; at < A.start[row + 1]; ++at) {
+          from[of].push_back(at);
+          places[of].push_back(place_of(row));
+          places[of].push_back(place_of(A.column[at]));
+        }
+    out_.clear();
+    in_.assign(n, 0);
+    n_out_.clear();
     std::vector<int> sent;
     for (std::size_t k = 0; k < n; ++k) {
       n_out_.push_back(static_cast<int>(from[k].size()));
-      out_.insert(out_.end(), from[k].begin(), from[k].end()),
-          sent.insert(sent.end(), places[k].begin(), places[k].end());
+      out_.insert(out_.end(), from[k].begin(), from[k].end());
+      sent.insert(sent.end(), places[k].begin(), places[k].end());
     }
     MPI_Alltoall(n_out_.data(), 1, MPI_INT, in_.data(), 1, MPI_INT, PETSC_COMM_WORLD);
-    const std::vector<int> first_out = begins(n_out_), first_in = begins(in_);
+    const std::vector<int> first_out = begins(n_out_);
+    const std::vector<int> first_in = begins(in_);
     places_in_.resize(2 * static_cast<std::size_t>(first_in.back()));
     MPI_Datatype pair;
-    MPI_Type_contiguous(2, MPI_INT, &pair), MPI_Type_commit(&pair);
+    MPI_Type_contiguous(2, MPI_INT, &pair);
+    MPI_Type_commit(&pair);
     MPI_Alltoallv(sent.data(), n_out_.data(), first_out.data(), pair, places_in_.data(), in_.data(),
                   first_in.data(), pair, PETSC_COMM_WORLD);
     MPI_Type_free(&pair);
@@ -123,8 +135,10 @@ class DividedAggregation : public Multigrid {
   }
 
   void add_of_others(const Rows& A) {
-    const std::vector<int> first_out = begins(n_out_), first_in = begins(in_);
-    std::vector<double> out, in(static_cast<std::size_t>(first_in.back()));
+    const std::vector<int> first_out = begins(n_out_);
+    const std::vector<int> first_in = begins(in_);
+    std::vector<double> out;
+    std::vector<double> in(static_cast<std::size_t>(first_in.back()));
     for (int at : out_) out.push_back(A.value[at]);
     MPI_Alltoallv(out.data(), n_out_.data(), first_out.data(), MPI_DOUBLE, in.data(), in_.data(),
                   first_in.data(), MPI_DOUBLE, PETSC_COMM_WORLD);
@@ -182,7 +196,8 @@ class DividedAggregation : public Multigrid {
 
   void clear() {
     passed_over(PCDestroy(&cycle_));
-    passed_over(VecDestroy(&from_)), passed_over(VecDestroy(&to_));
+    passed_over(VecDestroy(&from_));
+    passed_over(VecDestroy(&to_));
     passed_over(MatDestroy(&A_));
   }
 

@@ -42,7 +42,10 @@ const petsc_module::Functions* load(std::string& why) {
 const petsc_module::Functions* petsc(std::string& why) {
   static std::string words;
   const std::lock_guard alone(mutex);
-  if (!tried) functions = load(words), tried = true;
+  if (!tried) {
+    functions = load(words);
+    tried = true;
+  }
   why = words;
   return functions;
 }

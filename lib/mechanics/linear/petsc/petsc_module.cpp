@@ -87,7 +87,8 @@ std::list<std::string> names_of_launchers() {
 void initialize(bool of_all_ranks) {
   // what users have set for programs of their own would change our digits
   const Environment none("PETSC_OPTIONS", nullptr);
-  std::string name = "langer", skip = "-skip_petscrc";
+  std::string name = "langer";
+  std::string skip = "-skip_petscrc";
   char* words[] = {name.data(), skip.data(), nullptr};
   char** arguments = words;
   int n = 2;
@@ -181,8 +182,10 @@ class Aggregation : public Multigrid {
       begin();
       if (again && A_)
         renew();
-      else
-        clear(), make(A, rigid);
+      else {
+        clear();
+        make(A, rigid);
+      }
       return true;
     } catch (const std::runtime_error& words) {
       why = words.what();
@@ -193,9 +196,11 @@ class Aggregation : public Multigrid {
 
   void apply(const double* r, double* z) override {
     const std::lock_guard alone(mutex);
-    need(VecPlaceArray(r_, r)), need(VecPlaceArray(z_, z));
+    need(VecPlaceArray(r_, r));
+    need(VecPlaceArray(z_, z));
     const PetscErrorCode applied = PCApply(cycle_, r_, z_);
-    passed_over(VecResetArray(r_)), passed_over(VecResetArray(z_));
+    passed_over(VecResetArray(r_));
+    passed_over(VecResetArray(z_));
     need(applied);
   }
 
@@ -227,7 +232,8 @@ class Aggregation : public Multigrid {
 
   void clear() {
     passed_over(PCDestroy(&cycle_));
-    passed_over(VecDestroy(&r_)), passed_over(VecDestroy(&z_));
+    passed_over(VecDestroy(&r_));
+    passed_over(VecDestroy(&z_));
     passed_over(MatDestroy(&A_));
   }
 
@@ -236,7 +242,10 @@ class Aggregation : public Multigrid {
   Vec r_ = nullptr, z_ = nullptr;
 };
 
-Multigrid* multigrid(const Ranks* ranks) { return ranks ? multigrid_of(*ranks) : new Aggregation; }
+Multigrid* multigrid(const Ranks* ranks) {
+  if (ranks) return multigrid_of(*ranks);
+  return new Aggregation;
+}
 
 // what PETSc calls back; it is C, so that exceptions have to go around it
 struct Calls {
@@ -296,23 +305,30 @@ KrylovEnd fgmres(const Krylov& system) {
   constexpr int restart = 40;
   Mat matrix = nullptr;
   KSP method = nullptr;
-  Vec b = nullptr, x = nullptr;
+  Vec b = nullptr;
+  Vec x = nullptr;
   KrylovEnd end;
   Calls calls{system};
   try {
     begin();
     calls.shares = shares_of(system);
     const MPI_Comm all = calls.shares ? PETSC_COMM_WORLD : PETSC_COMM_SELF;
-    const int own = calls.shares ? calls.shares->own() : system.n,
-              before = calls.shares ? calls.shares->before() : 0;
-    if (calls.shares) calls.whole_x.resize(system.n), calls.whole_y.resize(system.n);
+    int own = system.n;
+    if (calls.shares) own = calls.shares->own();
+    int before = 0;
+    if (calls.shares) before = calls.shares->before();
+    if (calls.shares) {
+      calls.whole_x.resize(system.n);
+      calls.whole_y.resize(system.n);
+    }
     const auto share = [&](const double* values, Vec* of) {
       need(calls.shares ? VecCreateMPIWithArray(all, 1, own, system.n, values + before, of)
                         : VecCreateSeqWithArray(all, 1, own, values, of));
     };
     need(MatCreateShell(all, own, own, system.n, system.n, &calls, &matrix));
     need(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(product)));
-    share(system.right_side, &b), share(system.solution, &x);
+    share(system.right_side, &b);
+    share(system.solution, &x);
     need(KSPCreate(all, &method));
     need(KSPSetOperators(method, matrix, matrix));
     need(KSPSetType(method, KSPFGMRES));
@@ -337,7 +353,8 @@ KrylovEnd fgmres(const Krylov& system) {
     end.converged = false;
   }
   passed_over(KSPDestroy(&method));
-  passed_over(VecDestroy(&x)), passed_over(VecDestroy(&b));
+  passed_over(VecDestroy(&x));
+  passed_over(VecDestroy(&b));
   passed_over(MatDestroy(&matrix));
   try {
     if (calls.thrown) std::rethrow_exception(calls.thrown);

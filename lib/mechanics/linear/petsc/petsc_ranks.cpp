@@ -14,7 +14,8 @@ namespace {
 class World : public Ranks {
  public:
   World() {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_), MPI_Comm_size(MPI_COMM_WORLD, &n_);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &n_);
     MPI_Comm_dup(MPI_COMM_WORLD, &end_);
   }
   int rank() const override { return rank_; }
@@ -40,11 +41,15 @@ class World : public Ranks {
   }
 
   std::vector<int> divide(const std::vector<int>& nodes, int per_cell, int n_nodes) const override {
-    idx_t n_cells = static_cast<idx_t>(nodes.size()) / per_cell, points = n_nodes, parts = n_,
-          edges = 0;
+    idx_t n_cells = static_cast<idx_t>(nodes.size()) / per_cell;
+    idx_t points = n_nodes;
+    idx_t parts = n_;
+    idx_t edges = 0;
     idx_t shared = per_cell == 8 ? 4 : 3;  // nodes of a facet
-    std::vector<idx_t> begins, of(nodes.begin(), nodes.end()),
-        part(static_cast<std::size_t>(n_cells)), of_node(static_cast<std::size_t>(n_nodes));
+    std::vector<idx_t> begins;
+    std::vector<idx_t> of(nodes.begin(), nodes.end());
+    std::vector<idx_t> part(static_cast<std::size_t>(n_cells));
+    std::vector<idx_t> of_node(static_cast<std::size_t>(n_nodes));
     for (idx_t e = 0; e <= n_cells; ++e) begins.push_back(e * per_cell);
     int code = METIS_OK;
     if (rank_ == 0)
@@ -113,7 +118,10 @@ Ranks* world(std::string& why) {
 
 Shares::Shares(std::vector<int> counts) : counts_(std::move(counts)) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  for (int count : counts_) first_.push_back(all_), all_ += count;
+  for (int count : counts_) {
+    first_.push_back(all_);
+    all_ += count;
+  }
 }
 
 void Shares::gather(const double* own, double* all) const {
