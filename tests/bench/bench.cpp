@@ -149,8 +149,8 @@ void measure_assembly(const Material& skin) {
                                       {&quadratic, Kernel::packets},
                                       {&quadratic, Kernel::one_by_one}}) {
     const Mesh& mesh = *cells;
-    Equilibrium body = test::equilibrium(mesh, {skin}, usual_formulation(mesh.type),
-                                         number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
+    Assembler body = test::equilibrium(mesh, {skin}, usual_formulation(mesh.type),
+                                       number_dofs(mesh.n_nodes(), {}).dofs, 1, kernel);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i)
       u.segment<3>(3 * i) = 0.01 * mesh.X[i].cwiseProduct(Vec3(1, -1, 0.5));

@@ -34,12 +34,12 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   scene.newton.linear = linear;
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
-  scene.before = [&](Equilibrium& body, const Statics& statics, const LoadPathOptions& path) {
+  scene.before = [&](Assembler& body, const Statics& statics, const LoadPathOptions& path) {
     told = forecast(body, statics.size(), {}, path, {},
                     {false, statics.contact_in_tangent(), statics.mixed()});
   };
   double begun = 0;
-  scene.before = [told_of = scene.before, &begun](Equilibrium& body, const Statics& statics,
+  scene.before = [told_of = scene.before, &begun](Assembler& body, const Statics& statics,
                                                   const LoadPathOptions& path) {
     told_of(body, statics, path);
     begun = wall_seconds();

@@ -17,8 +17,8 @@ using test::run;
 
 TEST_CASE("a cube between two rough plates, held by nothing else") {
   const Mesh mesh = test::cube(4);
-  Equilibrium body = test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
-                                       number_dofs(mesh.n_nodes(), {}).dofs);
+  Assembler body = test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
+                                     number_dofs(mesh.n_nodes(), {}).dofs);
   const RigidContact below{
       "below", Plane{{0, 0, 0}, {0, 1, 0}}, 0.5, mesh.node_sets.at("y_min"), {{1, Vec3(0, 0, 0)}}};
   const RigidContact above{"above",
@@ -57,9 +57,8 @@ TEST_CASE("the same cube on a held base gives the same force: the springs leave 
                           5,
                           mesh.node_sets.at("y_min"),
                           {{1, Vec3(0, 0, 0)}}});
-    Equilibrium body =
-        test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
-                          number_dofs(mesh.n_nodes(), held).dofs);
+    Assembler body = test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, contacts, {});
     REQUIRE(run(statics, 0.25).path.complete);
     return -statics.defects()[0].force[1];

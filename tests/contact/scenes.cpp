@@ -52,7 +52,7 @@ TEST_CASE(
   RigidContact sphere{"sphere", Sphere{R, {0, R, 0}}, 0, {}, {{1, Vec3(0, -depth, 0)}}};
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 1.2) sphere.nodes.push_back(i);
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {sphere}, {});
@@ -80,7 +80,7 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
                              mu,
                              mesh.node_sets.at("y_min"),
                              {{0.1, Vec3(0, 0.01, 0)}, {1, Vec3(-0.3, 0.01, 0)}}};
-    Equilibrium body =
+    Assembler body =
         test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation,
                           number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {wedge}, {});

@@ -96,7 +96,7 @@ TEST_CASE("forces on a cut body balance, and turn with the body") {
   REQUIRE(!cut.mesh().hanging.empty());
   const Mat3 H =
       Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix() - Mat3::Identity();
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(cut.mesh(), {test::neo_hooke(0.1, 1e-3)}, Formulation::mean_dilatation,
                         number_dofs(cut.mesh().n_nodes(), {}, {}, cut.mesh().hanging).dofs);
   VecX u(3 * cut.mesh().n_nodes());

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/tensor/voigt.hpp"
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
@@ -50,7 +50,7 @@ Vec3 body_force(const Material& material, const Vec3& X) {  // -Div P
 }
 
 // u under nodal forces F, by Newton's method from the chosen displacements
-VecX balanced(Equilibrium& body, const VecX& F) {
+VecX balanced(Assembler& body, const VecX& F) {
   const Dofs& dofs = body.dofs();
   VecX u(dofs.n);
   for (int n = 0; n < body.mesh().n_nodes(); ++n) u.segment<3>(3 * n) = chosen(body.mesh().X[n]);
@@ -82,7 +82,7 @@ Errors errors_of(CellType cells, Formulation formulation, const Material& materi
     for (int i : nodes)
       if (!seen[i]++)
         for (int k = 0; k < 3; ++k) outer.push_back({3 * i + k, chosen(mesh.X[i])[k]});
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), outer).dofs);
   VecX F = VecX::Zero(3 * mesh.n_nodes());
   for (int e = 0; e < mesh.n_cells(); ++e)

@@ -9,7 +9,7 @@
 
 #include "core/tensor/dense.hpp"
 #include "core/tensor/stress.hpp"
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -195,7 +195,7 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
     if (n == 15)
       mesh = test::raised_block(
           mesh, CellType::tet15);  // straight edges: curved ones are beyond its Gauss points
-    Equilibrium body =
+    Assembler body =
         test::equilibrium(mesh, {material}, formulation, number_dofs(mesh.n_nodes(), {}).dofs);
     VecX u(3 * mesh.n_nodes());
     for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = H * mesh.X[i];

@@ -60,7 +60,7 @@ SolveConfig in_four_steps() {
 }
 
 std::vector<StepRecord> at_a_point(HomogeneousScene& point, const SolveConfig& config) {
-  Equilibrium body = point.equilibrium();
+  Assembler body = point.assembler();
   Statics statics(body, {}, {});
   std::vector<StepRecord> steps;
   const PathReport report = load_path(

@@ -35,7 +35,7 @@ Found sphere(const LoadCase& scene, CellType cells, std::optional<Formulation> f
   indentation.nx = indentation.nz = 12 / q, indentation.ny = 4 / q, indentation.h = 0.5 * q;
   indentation.radius = scene.sphere, indentation.depth = 0.4, indentation.step = 0.2;
   Found out;
-  indentation.after = [&](const Statics& statics, const Equilibrium& body) {
+  indentation.after = [&](const Statics& statics, const Assembler& body) {
     out.said = locking(body, statics.accepted().u).share;
   };
   const auto result = indentation.run(scene.material);
@@ -58,7 +58,7 @@ Found block(const LoadCase& scene, CellType cells, std::optional<Formulation> fo
                u = scene.move + scene.turn * Vec3(from[2], from[0], -from[0]);
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, u[k]});
   }
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)),
                         number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});

@@ -313,7 +313,7 @@ TEST_CASE(
     const SolveConfig config = test::config_of(block("hex8") + material(more) + ball(hold) +
                                                "path: {seconds: 10}\nsymmetry: none\n");
     Run run(mesh_of(config), config, config.material, test::nowhere, false);
-    return run.body.viscous() ? run.body.memory()->bytes() : 0;
+    return run.body.viscous() ? run.body.viscous_points()->bytes() : 0;
   };
   CHECK(bytes("") == 0);
   const double points = 6 * 2 * 6 * 8;

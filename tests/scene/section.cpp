@@ -182,7 +182,7 @@ TEST_CASE(
       const auto part = ReducedScene::find(config.symmetry, mesh, whole, nowhere);
       REQUIRE(part.has_value());
       const Reduction reduction(mesh, whole, part);  // body refers to it
-      Equilibrium body = reduction.equilibrium();
+      Assembler body = reduction.assembler();
       const Dofs& dofs = body.dofs();
       std::mt19937 random(5);
       std::uniform_real_distribution<double> small(-0.02, 0.02);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Entries = std::map<std::pair<int, int>, double>;  // by dofs, the greater first
 
-Entries entries(const Equilibrium& body) {
+Entries entries(const Assembler& body) {
   Entries out;
   const Pattern& pattern = body.pattern();
   const std::vector<int>& free = body.dofs().free;
@@ -44,8 +44,8 @@ TEST_CASE(
     const Mesh mesh = type == CellType::hex8 ? block : test::raised_block(block, type);
     const std::vector<Material> materials = {test::table1(60, 1e-3), test::table1(20, 1e-3)};
     const VecX u = some_state(mesh);
-    Equilibrium whole = test::equilibrium(mesh, materials, usual_formulation(type),
-                                          number_dofs(mesh.n_nodes(), {}).dofs);
+    Assembler whole = test::equilibrium(mesh, materials, usual_formulation(type),
+                                        number_dofs(mesh.n_nodes(), {}).dofs);
     REQUIRE(whole.assemble(u, true));
     const Entries all = entries(whole);
     for (int held : {0, 1, 2, 3}) {  // nothing, whole nodes, single directions, both
@@ -56,8 +56,8 @@ TEST_CASE(
           for (int k = 0; k < 3; ++k) prescribed.push_back({3 * i + k, 0});
         if (held >= 2 && i % 7 == 3) prescribed.push_back({3 * i + i % 3, 0});
       }
-      Equilibrium body = test::equilibrium(mesh, materials, usual_formulation(type),
-                                           number_dofs(mesh.n_nodes(), prescribed).dofs);
+      Assembler body = test::equilibrium(mesh, materials, usual_formulation(type),
+                                         number_dofs(mesh.n_nodes(), prescribed).dofs);
       for (int again = 0; again < 2; ++again) {  // K is written over, not added to
         REQUIRE(body.assemble(u, true));
         double worst = 0, largest = 0;
@@ -84,8 +84,8 @@ TEST_CASE(
       const int dof = 3 * i + i % 3;
       prescribed.push_back({dof, u[dof] + 0.01 * (1 + i % 5)}), du[dof] = 0.01 * (1 + i % 5);
     }
-    Equilibrium body = test::equilibrium(mesh, {test::stable(60, 1e-2)}, Formulation::displacement,
-                                         number_dofs(mesh.n_nodes(), prescribed).dofs);
+    Assembler body = test::equilibrium(mesh, {test::stable(60, 1e-2)}, Formulation::displacement,
+                                       number_dofs(mesh.n_nodes(), prescribed).dofs);
     body.pressures_from(u);
     REQUIRE(body.assemble(u, true, &du));
     const VecX K_du = body.K_du();
@@ -103,8 +103,8 @@ TEST_CASE(
     "the floor of the residual is what rounding of the displacements does to the forces, within a factor of 30") {
   const Mesh mesh = test::block(test::even(0, 3, 3), test::even(0, 2, 2), test::even(0, 3, 3));
   for (double d : {1e-6, 1e-9}) {
-    Equilibrium body = test::equilibrium(mesh, {test::stable(60, d)}, Formulation::mean_dilatation,
-                                         number_dofs(mesh.n_nodes(), {}).dofs);
+    Assembler body = test::equilibrium(mesh, {test::stable(60, d)}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), {}).dofs);
     const auto forces = [&](const VecX& u) {
       body.pressures_from(u);
       REQUIRE(body.assemble(u, false));

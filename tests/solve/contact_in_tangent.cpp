@@ -26,7 +26,7 @@ void compare(test::Indentation scene, const Material& law) {
   const auto condensed = scene.run(law);
   scene.contact_by = ContactBy::tangent;
   bool in_tangent = true;
-  scene.after = [&](const Statics& statics, const Equilibrium&) {
+  scene.after = [&](const Statics& statics, const Assembler&) {
     in_tangent = in_tangent && statics.contact_in_tangent();
   };
   const auto sparse = scene.run(law);
@@ -94,7 +94,7 @@ TEST_CASE(
       scene.nx = scene.nz = 20, scene.ny = layers, scene.h = 0, scene.depth = 1e-3,
       scene.step = 1e-3, scene.mu = mu;
       bool in_tangent = false;
-      scene.after = [&](const Statics& statics, const Equilibrium&) {
+      scene.after = [&](const Statics& statics, const Assembler&) {
         in_tangent = statics.contact_in_tangent();
       };
       scene.shape = Plane{{0, 4, 0}, {0, -1, 0}}, scene.reach = 30;

@@ -34,10 +34,10 @@ struct Slab {
     for (const Prescribed& p : dofs.prescribed) du[p.dof] = random.uniform();
   }
 
-  Equilibrium equilibrium(std::optional<Division> division = {}) const {
+  Assembler assembler(std::optional<Division> division = {}) const {
     const std::vector<Material> laws{test::table1(30, 1e-6)};
-    return Equilibrium(mesh, laws, test::directions(mesh, laws), Formulation::mean_dilatation, dofs,
-                       1, Kernel::packets, {}, std::move(division));
+    return Assembler(mesh, laws, test::directions(mesh, laws), Formulation::mean_dilatation, dofs,
+                     1, Kernel::packets, {}, std::move(division));
   }
   // some cells here, some there
   Division division(const Ranks& ranks) const {
@@ -58,7 +58,7 @@ void agree(const VecX& found, const VecX& wanted, double tolerance = 1e-12) {
 
 TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks are those of one") {
   const Slab scene;
-  Equilibrium whole = scene.equilibrium();
+  Assembler whole = scene.assembler();
   REQUIRE(whole.assemble(scene.u, true, &scene.du));
   VecX v(scene.dofs.n_free());
   Random random(5);
@@ -66,13 +66,13 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
   for (int n : {2, 3}) {
     std::mutex alone;  // doctest's, among threads
     test::on_ranks(n, [&](const Ranks& ranks) {
-      Equilibrium part = scene.equilibrium(scene.division(ranks));
+      Assembler part = scene.assembler(scene.division(ranks));
       const bool assembled = part.assemble(scene.u, true, &scene.du);
       VecX product = part.K_times(v);
       ranks.sum(product.data(), static_cast<std::size_t>(product.size()));
       const double J_min = part.smallest_J(scene.u);
-      const Equilibrium::VolumetricPart volume = part.volumetric_part(),
-                                        all = whole.volumetric_part();
+      const Assembler::VolumetricPart volume = part.volumetric_part(),
+                                      all = whole.volumetric_part();
       VecX turned = scene.u;
       turned[3 * scene.mesh.n_nodes() / 2] +=
           100;  // a cell of one rank is turned inside out: all know
@@ -87,7 +87,7 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
       CHECK(volume.b == all.b);
     });
     test::on_ranks(n, [&](const Ranks& ranks) {
-      Equilibrium part = scene.equilibrium(scene.division(ranks));
+      Assembler part = scene.assembler(scene.division(ranks));
       part.assemble(scene.u, true, &scene.du);
       const std::lock_guard lock(alone);
       agree(part.f_int(), whole.f_int());
@@ -102,7 +102,7 @@ TEST_CASE("divided: forces, energy, bounds and the tangent's products of ranks a
 TEST_CASE(
     "divided: the Schur complement of the pressures is factorized exactly, however the cells lie") {
   const Slab scene;
-  std::vector<int> rows = scene.equilibrium().cell_dofs();
+  std::vector<int> rows = scene.assembler().element_dofs();
   for (int& row : rows)
     if (scene.dofs.equation[static_cast<std::size_t>(row)] < 0) row = -1;
   Random random(7);

@@ -57,8 +57,8 @@ struct Pull {
       for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
     for (int i : mesh.node_sets["x_max"]) length = mesh.X[i][0];
     for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, (stretch - 1) * length});
-    Equilibrium body = test::equilibrium(mesh, materials, Formulation::mean_dilatation,
-                                         number_dofs(mesh.n_nodes(), held).dofs);
+    Assembler body = test::equilibrium(mesh, materials, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.steps = steps_of, options.smallest = smallest;
@@ -148,7 +148,7 @@ TEST_CASE("extremes: I4 = 1 crossed from both sides, in small and in large strid
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
         for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
       for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, 3});
-      Equilibrium body =
+      Assembler body =
           test::equilibrium(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation,
                             number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {}, {});
@@ -312,9 +312,8 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
         const Vec3 to = R * Vec3(stretch * X[0], X[1], X[2]) - X;
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, to[k]});
       }
-    Equilibrium body =
-        test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation,
-                          number_dofs(mesh.n_nodes(), held).dofs);
+    Assembler body = test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation,
+                                       number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {}, {});
     LoadPathOptions options;
     options.first = options.largest = 0.1;

@@ -55,8 +55,8 @@ std::vector<State> run(const Pressed& scene, const Path& way, PathReport* report
                        way.motion, way.control};
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 3.2) contact.nodes.push_back(i);
-  Equilibrium body = test::equilibrium(mesh, {scene.law}, Formulation::mean_dilatation,
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(mesh, {scene.law}, Formulation::mean_dilatation,
+                                     number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {contact}, {});
   LoadPathOptions path;
   path.first = path.largest = way.largest;

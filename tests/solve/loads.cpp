@@ -27,8 +27,8 @@ struct Ended {
 Ended solved(const Mesh& mesh, const Material& law, std::vector<Prescribed> held,
              std::vector<SurfaceLoad> loads, int steps,
              const NewtonOptions& newton_options = {.relative = 1e-10}) {
-  Equilibrium body = test::equilibrium(mesh, {law}, usual_formulation(mesh.type),
-                                       number_dofs(mesh.n_nodes(), std::move(held)).dofs);
+  Assembler body = test::equilibrium(mesh, {law}, usual_formulation(mesh.type),
+                                     number_dofs(mesh.n_nodes(), std::move(held)).dofs);
   if (!loads.empty()) body.set_loads({mesh, std::move(loads)});
   Statics statics(body, {}, {});
   LoadPathOptions path;
@@ -81,8 +81,8 @@ TEST_CASE(
       CHECK(to > 0.1);
       std::vector<Prescribed> held = on_planes(mesh);
       for (int n : mesh.node_sets.at("x_max")) held.push_back({3 * n, to});
-      Equilibrium body = test::equilibrium(mesh, {law}, usual_formulation(mesh.type),
-                                           number_dofs(mesh.n_nodes(), held).dofs);
+      Assembler body = test::equilibrium(mesh, {law}, usual_formulation(mesh.type),
+                                         number_dofs(mesh.n_nodes(), held).dofs);
       const Ended moved = solved(mesh, law, held, {}, 4);
       CHECK((pulled.u - moved.u).lpNorm<Eigen::Infinity>() < 1e-7);
       body.pressures_from(moved.u);

@@ -35,7 +35,7 @@ void same_by_both(test::Indentation s, const Material& material) {
   const auto direct = s.run(material);
   s.newton.linear = LinearBy::iterative;
   bool gave_up = false, iterative = false;
-  s.after = [&](const Statics& statics, const Equilibrium&) {
+  s.after = [&](const Statics& statics, const Assembler&) {
     gave_up = gave_up || statics.gave_up_iterating(), iterative = statics.iterative();
   };
   const auto found = s.run(material);
@@ -64,8 +64,8 @@ TEST_CASE("iterative: the tangent is what its two parts make") {
     for (int k = 0; k < 3; ++k)
       if (k != 0 || i % 2 == 0) held.push_back({3 * i + k, 0});
   for (int i : mesh.node_sets.at("y_max")) held.push_back({3 * i + 1, -0.1});
-  Equilibrium body = test::equilibrium(mesh, {test::table1(30, 1e-6)}, Formulation::mean_dilatation,
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(mesh, {test::table1(30, 1e-6)}, Formulation::mean_dilatation,
+                                     number_dofs(mesh.n_nodes(), held).dofs);
   Random random(3);
   VecX u(body.dofs().n), du = VecX::Zero(body.dofs().n);
   for (double& x : u) x = 0.01 * (random.uniform() - 0.5);
@@ -116,8 +116,8 @@ TEST_CASE(
       std::vector<Prescribed> held;
       for (int i : mesh.node_sets.at("y_min"))
         for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
-                                           number_dofs(mesh.n_nodes(), held).dofs);
+      Assembler body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                         number_dofs(mesh.n_nodes(), held).dofs);
       const VecX rest = VecX::Zero(body.dofs().n);
       REQUIRE(body.assemble(rest, true));
       std::string why;
@@ -185,7 +185,7 @@ TEST_CASE("iterative: what does not converge is left to a factor") {
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
   for (int i : mesh.node_sets.at("y_max")) held.push_back({3 * i, 0.01});
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(mesh, {test::neo_hooke(-0.05, 1)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
   const auto solved = [&](LinearBy linear_by) {

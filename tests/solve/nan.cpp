@@ -27,7 +27,7 @@ TEST_CASE(
     for (int from : {0, 1, 2, 3, 5}) {
       CAPTURE(solver.index());
       CAPTURE(from);
-      Equilibrium body = test::equilibrium(mesh, {skin}, Formulation::mean_dilatation, dofs);
+      Assembler body = test::equilibrium(mesh, {skin}, Formulation::mean_dilatation, dofs);
       Statics statics(body, {contact}, {});
       int calls = 0;
       const Problem clean = statics.problem();

@@ -60,8 +60,8 @@ Found solved(const Turning& scene) {
     for (int node : mesh.node_sets.at(set))
       for (int k = 0; k < 3; ++k) held.push_back({3 * node + k, 0});
   for (const TurnedSet& set : scene.turned) prescribe(set, mesh, held);
-  Equilibrium body = test::equilibrium(mesh, {scene.law}, usual_formulation(mesh.type),
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(mesh, {scene.law}, usual_formulation(mesh.type),
+                                     number_dofs(mesh.n_nodes(), held).dofs);
   if (!scene.loads.empty()) body.set_loads({mesh, scene.loads});
   Statics statics(body, scene.contacts, {});
   EnergyPath energy(mesh, scene.contacts, scene.stops, scene.turned);

@@ -18,7 +18,7 @@ namespace {
 struct EnergyOf {
   std::unique_ptr<EnergyPath> path;
   explicit EnergyOf(test::Indentation& scene) {
-    scene.after = [this](const Statics& statics, const Equilibrium& body) {
+    scene.after = [this](const Statics& statics, const Assembler& body) {
       const BodyState& state = statics.accepted();
       const VecX reactions = statics.reactions();
       std::vector<Vec3> u, f;

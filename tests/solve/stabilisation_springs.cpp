@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 
 #include "core/tensor/dense.hpp"
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
@@ -18,7 +18,7 @@ TEST_CASE("springs: an indefinite matrix solved by Cholesky and a few springs ta
   std::vector<Prescribed> held;
   for (int i : mesh.node_sets.at("y_min"))
     for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
-  Equilibrium body =
+  Assembler body =
       test::equilibrium(mesh, {test::neo_hooke(0.5, 0.1)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
   REQUIRE(body.assemble(VecX::Zero(body.dofs().n), true));

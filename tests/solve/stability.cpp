@@ -30,8 +30,8 @@ std::vector<Seen> pull(const Material& material, int n, double to, int steps, do
   for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"y_min", 1}, {"z_min", 2}})
     for (int i : mesh.node_sets[face]) held.push_back({3 * i + axis, 0});
   for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, to - 1});
-  Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                     number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   StabilityWatch watch({});
   LoadPathOptions options;
@@ -67,7 +67,7 @@ std::vector<std::array<double, 2>> spans(const std::vector<Seen>& seen, What wha
 }
 
 // K on the free dofs as a dense matrix
-MatX dense(const Equilibrium& body) {
+MatX dense(const Assembler& body) {
   const Pattern& p = body.pattern();
   MatX K = MatX::Zero(p.n, p.n);
   for (int c = 0; c < p.n; ++c)
@@ -149,8 +149,8 @@ TEST_CASE(
                                  mesh.node_sets["y_max"],
                                  {{1, Vec3(0, -0.5, 0)}}};
       const Material material = test::stable(40, 1e-3);
-      Equilibrium body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
-                                           number_dofs(mesh.n_nodes(), held).dofs);
+      Assembler body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
+                                         number_dofs(mesh.n_nodes(), held).dofs);
       Statics statics(body, {contact}, {});
       for (double t : {0.1, 0.2, 0.3, 0.4}) {
         statics.begin(t);

@@ -82,8 +82,8 @@ Found run(const Pressed& scene, Number number, double by, bool differentiate) {
   if (scene.pushed) contact.control = ForceControl{-Vec3::UnitY(), {0.3, nullptr}};
   for (int i : mesh.node_sets.at("y_max"))
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 3) contact.nodes.push_back(i);
-  Equilibrium body = test::equilibrium(mesh, {law_of(scene, number, by)}, scene.formulation,
-                                       number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(mesh, {law_of(scene, number, by)}, scene.formulation,
+                                     number_dofs(mesh.n_nodes(), held).dofs);
   StaticsOptions options;
   options.gap_tolerance = 3e-13,
   options.law_tolerance = 3e-13;  // at 1e-13 rounding decides whether a pushed path ends
@@ -121,12 +121,12 @@ Found run(const Pressed& scene, Number number, double by, bool differentiate) {
           const double h = step_of(scene, number);
           for (double side : {1., -1.}) {
             const Material law = law_of(scene, number, side * h);
-            body.set_laws({law}, make_directions(mesh, {fibre_angles(law)}));
+            body.set_materials({law}, make_directions(mesh, {fibre_angles(law)}));
             body.pressures_from(u), body.assemble(u, false);
             change.f += side / (2 * h) * body.f_int();
           }
           const Material law = law_of(scene, number, 0);
-          body.set_laws({law}, make_directions(mesh, {fibre_angles(law)}));
+          body.set_materials({law}, make_directions(mesh, {fibre_angles(law)}));
         }
         const StateTangent tangent(statics, earlier);
         const auto found = tangent.derivative(change, d_last[0], d_last[1]);

@@ -18,7 +18,7 @@ namespace {
 
 struct Held {
   Mesh mesh = test::cube(2);
-  Equilibrium body;
+  Assembler body;
   Statics statics;
   Held()
       : body(test::equilibrium(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation,

@@ -29,8 +29,8 @@ Tensile pull(const Material& material, Formulation formulation, double travel = 
   for (int i : scene.mesh.node_sets["y_min"]) held.push_back({3 * i + 1, 0});
   for (int i : scene.mesh.node_sets["z_min"]) held.push_back({3 * i + 2, 0});
   for (int i : scene.mesh.node_sets["x_max"]) held.push_back({3 * i, travel});
-  Equilibrium body = test::equilibrium(scene.mesh, {material}, formulation,
-                                       number_dofs(scene.mesh.n_nodes(), held).dofs);
+  Assembler body = test::equilibrium(scene.mesh, {material}, formulation,
+                                     number_dofs(scene.mesh.n_nodes(), held).dofs);
   Statics statics(body, {}, {});
   LoadPathOptions options;
   options.steps = 100;

@@ -55,7 +55,7 @@ TEST_CASE(
         }
         const RigidContact sphere{
             "sphere", Sphere{2, {0, 4, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.4, 0)}}};
-        Equilibrium body =
+        Assembler body =
             test::equilibrium(mesh, {test::neo_hooke(0.1, d)}, Formulation::mean_dilatation,
                               number_dofs(mesh.n_nodes(), held).dofs);
         Statics statics(body, {sphere}, {});

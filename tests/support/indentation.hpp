@@ -33,9 +33,9 @@ struct Indentation {
   NewtonOptions newton;
   const Ranks* ranks = nullptr;         // that share the cells
   std::optional<KinsolOptions> kinsol;  // in place of newton
-  std::function<void(Equilibrium&, const Statics&, const LoadPathOptions&)>
-      before;                                                     // told before the first step
-  std::function<void(const Statics&, const Equilibrium&)> after;  // told after each step
+  std::function<void(Assembler&, const Statics&, const LoadPathOptions&)>
+      before;                                                   // told before the first step
+  std::function<void(const Statics&, const Assembler&)> after;  // told after each step
 
   struct Step {
     double depth, force;
@@ -82,7 +82,7 @@ struct Indentation {
       division =
           Division{ranks, ranks->divide(result.mesh.connectivity, nodes_per_cell(result.mesh.type),
                                         result.mesh.n_nodes())};
-    Equilibrium body = equilibrium(
+    Assembler body = equilibrium(
         result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
         number_dofs(result.mesh.n_nodes(), held).dofs, threads, Kernel::packets, division);
     StaticsOptions options;

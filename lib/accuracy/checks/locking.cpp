@@ -17,7 +17,7 @@ struct CellSums {
   double W = 0, I1 = 0;  // of the isochoric energy and of I1_bar - 3
 };
 
-CellSums sums(const Equilibrium& body, const VecX& u, int e) {
+CellSums sums(const Assembler& body, const VecX& u, int e) {
   const ElementGeometry& geometry = body.geometry(e);
   const ElementNodes q = body.element_displacements(u, e);
   const int n = geometry.n_gauss();
@@ -52,7 +52,7 @@ bool may_lock(Formulation formulation, CellType type) {
          (formulation == Formulation::mean_dilatation && reference(type).second_order());
 }
 
-Locking locking(const Equilibrium& body, const VecX& u) {
+Locking locking(const Assembler& body, const VecX& u) {
   Locking out;
   out.energy = body.W();
   const bool too_soft = body.formulation() == Formulation::mean_dilatation;

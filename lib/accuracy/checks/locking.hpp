@@ -11,7 +11,7 @@
 // to be off by the same share.
 #pragma once
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 
 namespace langer {
 
@@ -22,6 +22,6 @@ struct Locking {
   double energy = 0;          // stored [N mm]
   Vec3 place = Vec3::Zero();  // centre of the cell that has most of it
 };
-Locking locking(const Equilibrium& body, const VecX& u);
+Locking locking(const Assembler& body, const VecX& u);
 
 }  // namespace langer

@@ -31,7 +31,7 @@ double rounded_up(double x) {
 
 }  // namespace
 
-ResultWatch::ResultWatch(const Equilibrium& body)
+ResultWatch::ResultWatch(const Assembler& body)
     : body_(body),
       may_lock_(may_lock(body.formulation(), body.mesh().type)),
       has_chains_(false),
@@ -58,7 +58,7 @@ void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
 // (element/viscous_points.hpp): what is negative beyond the error of the increments is no
 // dissipation.
 void ResultWatch::look_at_branches() {
-  const ViscousPoints& points = *body_.memory();
+  const ViscousPoints& points = *body_.viscous_points();
   double volume = 0, given = 0, worst = 0;
   for (int e = 0; e < body_.mesh().n_cells(); ++e) volume += body_.geometry(e).V;
   const double little = -1e-2 * std::abs(body_.viscous_work()) / volume;

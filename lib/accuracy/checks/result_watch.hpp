@@ -18,7 +18,7 @@ namespace langer {
 
 class ResultWatch {
  public:
-  explicit ResultWatch(const Equilibrium& body);
+  explicit ResultWatch(const Assembler& body);
   void look(double t, const VecX& u, const SolveReport& report);
   // of the state looked at last: not to be kept
   std::optional<Error> refusal() const;
@@ -31,7 +31,7 @@ class ResultWatch {
   std::string stiffness() const;    // of the volume: its key and number
   std::string soft_enough() const;  // such a key with a number that rounding bears
 
-  const Equilibrium& body_;
+  const Assembler& body_;
   bool may_lock_, has_chains_;
   Volume stiffest_;  // of all materials
   Locking locking_;  // where the stored energy was largest

@@ -13,7 +13,7 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
       stability_(std::move(tests)),
       result_(run.body) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
-  if (Equilibrium* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
+  if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
     StaticsOptions options;
     options.threads = config.blas_threads;
     mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);

@@ -81,7 +81,7 @@ void StabilityWatch::resume(const StepRecord& last) {
     force_before_ = found->second, t_before_ = last.t;
 }
 
-StabilityReport StabilityWatch::look(const Equilibrium& body, Statics& statics) {
+StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
   const BodyState& state = statics.accepted();
   StabilityReport report;
   report.t = state.t;

@@ -48,7 +48,7 @@ class StabilityWatch {
   explicit StabilityWatch(StudyRecord study) : study_(std::move(study)) {}
   void resume(const StepRecord& last);
   // the accepted state, right after accept()
-  StabilityReport look(const Equilibrium& body, Statics& statics);
+  StabilityReport look(const Assembler& body, Statics& statics);
   void add_to(StepRecord& record, const StabilityReport& report) const;
   void keep(const StabilityReport& report);  // for the warnings at the end
 

@@ -16,7 +16,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/tensor/stress.hpp"
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "results/post/nodal_fields.hpp"
 #include "scene/run/body_mesh.hpp"

@@ -100,7 +100,7 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
 
 // At fixed u, differences of what the laws say, after the tangent has been made there.
 std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies) {
-  Equilibrium& body = run_.body;
+  Assembler& body = run_.body;
   const VecX& u = run_.statics.accepted().u;
   const Scene& scene = run_.reduction.scene();
   std::vector<ParameterChange> out(parameters().size());
@@ -114,12 +114,11 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     const double h = parameters_.step(i);
     const auto with = [&](double by) {
       SceneParameters::Laws laws = parameters_.varied(scene, run_.reduction.mesh(), i, by);
-      return body.with_laws(std::move(laws.materials), std::move(laws.directions), u);
+      return body.forces_of(std::move(laws.materials), std::move(laws.directions), u);
     };
-    const Equilibrium::Forces more = with(h);
+    const Assembler::Forces more = with(h);
     const bool linear = parameters_.linear(i);
-    const Equilibrium::Forces less =
-        linear ? Equilibrium::Forces{body.f_int(), body.W()} : with(-h);
+    const Assembler::Forces less = linear ? Assembler::Forces{body.f_int(), body.W()} : with(-h);
     const double width = linear ? h : 2 * h;
     out[i].f = (more.f - less.f) / width, energies[i] = (more.W - less.W) / width;
   }
@@ -188,7 +187,7 @@ StepRecord Sensitivity::of_whole(const StepRecord& derivative, const StepRecord&
 // hexahedron.
 StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& whole) const {
   const Mesh& point = run_.reduction.mesh();
-  const Equilibrium& mesh = *run_.reduction.mesh_of_point();
+  const Assembler& mesh = *run_.reduction.mesh_of_point();
   StepRecord out = derivative;
   out.u.clear(), out.reaction.assign(whole.u.size(), Vec3::Zero());
   for (const std::array<double, 8>& N : run_.reduction.point()->weights()) {

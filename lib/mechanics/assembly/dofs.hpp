@@ -71,7 +71,10 @@ struct Dofs {
   std::vector<Image> tie;              // by node; empty without symmetry
 
   int n_free() const { return static_cast<int>(free.size()); }
-  int node(int i) const { return tie.empty() ? i : tie[i].of; }  // where node i has its dofs
+  int node(int i) const {
+    if (tie.empty()) return i;
+    return tie[i].of;
+  }  // where node i has its dofs
 };
 
 // Later entries for the same dof must agree in value; `conflict` is the dof where they do not, or

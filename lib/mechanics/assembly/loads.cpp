@@ -23,9 +23,9 @@ bool Loads::moves(double t0, double t) const {
 
 bool Loads::goes_on(double before, double now, double next) const {
   return std::all_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
-    const double f = factor_at(load.factor, now),
-                 rate = (factor_at(load.factor, next) - f) / (next - now),
-                 last = (f - factor_at(load.factor, before)) / (now - before);
+    const double f = factor_at(load.factor, now);
+    const double rate = (factor_at(load.factor, next) - f) / (next - now);
+    const double last = (f - factor_at(load.factor, before)) / (now - before);
     return std::abs(rate - last) <= 1e-6 * std::max(std::abs(rate), std::abs(last));
   });
 }

@@ -28,8 +28,8 @@ std::vector<std::vector<int>> node_graph(const Mesh& mesh, const MovingNodes& mo
 int position(const Pattern& pattern, int r, int c) {
   if (r < 0 || c < 0) return Pattern::none;
   if (r < c) std::swap(r, c);
-  const auto first = pattern.row.begin() + pattern.column_start[c],
-             last = pattern.row.begin() + pattern.column_start[c + 1];
+  const auto first = pattern.row.begin() + pattern.column_start[c];
+  const auto last = pattern.row.begin() + pattern.column_start[c + 1];
   return static_cast<int>(std::lower_bound(first, last, r) - pattern.row.begin());
 }
 
@@ -56,8 +56,9 @@ Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& do
         if (int r = dofs.equation[3 * b + k]; r >= c) pattern.row.push_back(r);
     pattern.column_start[c + 1] = pattern.nnz();
   }
-  const int n_nodes = nodes_per_cell(mesh.type), n_dofs = 3 * n_nodes;
-  pattern.blocks_per_element = n_nodes * (n_nodes + 1) / 2,
+  const int n_nodes = nodes_per_cell(mesh.type);
+  const int n_dofs = 3 * n_nodes;
+  pattern.blocks_per_element = n_nodes * (n_nodes + 1) / 2;
   pattern.slots_per_element = n_dofs * (n_dofs + 1) / 2;
   if (cells.size() < static_cast<std::size_t>(mesh.n_cells())) {
     pattern.block_of.assign(mesh.n_cells(), Pattern::none);
@@ -81,12 +82,18 @@ Pattern make_pattern(const Mesh& mesh, const MovingNodes& moving, const Dofs& do
     int* at = pattern.block.data() + pattern.number(e) * 3 * pattern.blocks_per_element;
     for (int a = 0; a < n_nodes; ++a)
       for (int b = 0; b <= a; ++b, at += 3) {
-        const int row = equation(3 * a), column = equation(3 * b);
+        const int row = equation(3 * a);
+        const int column = equation(3 * b);
         if (row < 0 || column < 0) continue;
-        for (int k = 0; k < 3; ++k)
-          at[k] = a == b         ? position(pattern, row + k, column + k)
-                  : row > column ? position(pattern, row, column + k)
-                                 : Pattern::turned(position(pattern, column, row + k));
+        for (int k = 0; k < 3; ++k) {
+          if (a == b) {
+            at[k] = position(pattern, row + k, column + k);
+          } else if (row > column) {
+            at[k] = position(pattern, row, column + k);
+          } else {
+            at[k] = Pattern::turned(position(pattern, column, row + k));
+          }
+        }
       }
   }
   return pattern;

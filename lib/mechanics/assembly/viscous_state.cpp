@@ -1,44 +1,44 @@
-// Increments of a viscous body: what it remembers at their beginning, and how its branches follow.
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/viscous_state.hpp"
 
 namespace langer {
 
-void Equilibrium::begin_increment(double seconds) {
-  if (!viscous_) return;
-  viscous_->begin(seconds);
-  if (kernel_ != Kernel::packets) return;
-  packet_H_.resize(blocks_.size());
-  const int n_gauss = mesh_.cell().n_gauss;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (!viscous_->has(blocks_[b].cells[0])) continue;
-    packet_H_[b].resize(6 * static_cast<std::size_t>(n_gauss));
-    for (int l = 0; l < Packet::lanes; ++l)
-      for (int g = 0; g < n_gauss; ++g) {
-        const Vec6 H = viscous_->H(blocks_[b].cells[l], g);
-        for (int p = 0; p < 6; ++p) packet_H_[b][static_cast<std::size_t>(6 * g + p)].set(l, H[p]);
-      }
+ViscousState::ViscousState(const BodyModel& body) : body_(body) {
+  const Mesh& mesh = body.mesh();
+  if (ViscousPoints::needed(body.materials())) {
+    points_.emplace(body.materials(), mesh.body, mesh.n_cells(), mesh.cell().n_gauss);
   }
 }
 
-double Equilibrium::end_increment(const VecX& u) {
-  if (!viscous_) return 0;
-  for (int e = 0; e < mesh_.n_cells(); ++e)
-    viscous_->end(e, material(e), geometry_[e], fibres(e), element_displacements(u, e));
-  return viscous_->error();
+void ViscousState::begin(double seconds) {
+  if (points_) points_->begin(seconds);
 }
 
-void Equilibrium::accept_increment(const VecX& u0, const VecX& u) {
-  if (!viscous_) return;
-  for (int e = 0; e < mesh_.n_cells(); ++e)
-    viscous_->accept(e, geometry_[e], element_displacements(u0, e), element_displacements(u, e));
-  viscous_->accepted();
+double ViscousState::end(const VecX& u) {
+  if (!points_) return 0;
+  for (int e = 0; e < body_.mesh().n_cells(); ++e) {
+    points_->end(e, body_.material(e), body_.geometry(e), body_.fibres(e),
+                 body_.displacements(u, e));
+  }
+  return points_->error();
 }
 
-double Equilibrium::viscous_work() const {
+void ViscousState::accept(const VecX& u0, const VecX& u) {
+  if (!points_) return;
+  for (int e = 0; e < body_.mesh().n_cells(); ++e) {
+    points_->accept(e, body_.geometry(e), body_.displacements(u0, e), body_.displacements(u, e));
+  }
+  points_->accepted();
+}
+
+double ViscousState::work() const {
+  if (!points_) return 0;
   double sum = 0;
-  for (int e = 0; viscous_ && e < mesh_.n_cells(); ++e)
-    for (int g = 0; viscous_->has(e) && g < geometry_[e].n_gauss(); ++g)
-      sum += geometry_[e].w[g] * viscous_->work(e, g);
+  for (int e = 0; e < body_.mesh().n_cells(); ++e) {
+    if (!points_->has(e)) continue;
+    for (int g = 0; g < body_.geometry(e).n_gauss(); ++g) {
+      sum += body_.geometry(e).w[g] * points_->work(e, g);
+    }
+  }
   return sum;
 }
 

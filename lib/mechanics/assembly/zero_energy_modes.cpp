@@ -52,8 +52,8 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   if (free > 1)
     return fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)",
                        free, moves, free - moves);
-  const Vec3 t = all.eigenvectors().col(0).head<3>(),
-             w = all.eigenvectors().col(0).tail<3>() / size;
+  const Vec3 t = all.eigenvectors().col(0).head<3>();
+  const Vec3 w = all.eigenvectors().col(0).tail<3>() / size;
   const auto text = [](Vec3 x) {
     for (double& c : x) c = std::abs(c) < 1e-9 ? 0 : c;
     return fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2]);

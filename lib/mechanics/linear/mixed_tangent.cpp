@@ -17,13 +17,13 @@ constexpr double kept = 2;
 
 }  // namespace
 
-std::unique_ptr<MixedTangent> MixedTangent::of(const Equilibrium& body, int threads,
+std::unique_ptr<MixedTangent> MixedTangent::of(const Assembler& body, int threads,
                                                std::string& why) {
   const petsc_module::Functions* module = petsc(why);
   if (!module) return nullptr;
   auto out = std::make_unique<MixedTangent>();
   const Dofs& dofs = body.dofs();
-  out->cell_dofs_ = body.cell_dofs();
+  out->cell_dofs_ = body.element_dofs();
   for (int dof : out->cell_dofs_) out->cell_rows_.push_back(dofs.equation[dof]);
   out->solver_ = std::make_unique<MixedSolver>(body.pattern(), dofs.free, out->cell_rows_, *module,
                                                threads, body.division());
@@ -39,17 +39,23 @@ std::unique_ptr<MixedTangent> MixedTangent::of(const Equilibrium& body, int thre
   return out;
 }
 
-void MixedTangent::linearise(const Equilibrium& body, const VecX& du_prescribed) {
-  Equilibrium::VolumetricPart part = body.volumetric_part();
+void MixedTangent::linearise(const Assembler& body, const VecX& du_prescribed) {
+  Assembler::VolumetricPart part = body.volumetric_part();
   const Eigen::Index n = part.V.size();
-  b_ = std::move(part.b), V_ = part.V;
-  scale_.resize(n), D_.resize(n), softened_.resize(n), of_prescribed_ = VecX::Zero(n);
+  b_ = std::move(part.b);
+  V_ = part.V;
+  scale_.resize(n);
+  D_.resize(n);
+  softened_.resize(n);
+  of_prescribed_ = VecX::Zero(n);
   for (Eigen::Index e = 0; e < n; ++e) {
     const double mu = std::max(std::abs(shear_modulus(body.material(static_cast<int>(e)))),
                                1e-9 * part.kappa[e]);  // a matrix may have none
-    const double soft = std::min(kept * mu, 0.5 * part.kappa[e]), stiff = part.kappa[e] - soft;
+    const double soft = std::min(kept * mu, 0.5 * part.kappa[e]);
+    const double stiff = part.kappa[e] - soft;
     scale_[e] = 1 / std::sqrt(1 / (V_[e] * stiff) + 1 / (V_[e] * (soft + mu)));
-    D_[e] = V_[e] * stiff / (scale_[e] * scale_[e]), softened_[e] = soft / scale_[e];
+    D_[e] = V_[e] * stiff / (scale_[e] * scale_[e]);
+    softened_[e] = soft / scale_[e];
     for (int k = 0; k < n_dofs; ++k) {
       double& entry = b_[n_dofs * e + k];
       entry *= scale_[e];
@@ -60,7 +66,7 @@ void MixedTangent::linearise(const Equilibrium& body, const VecX& du_prescribed)
   missing_ = part.missing.cwiseProduct(V_).cwiseQuotient(scale_);
 }
 
-std::vector<double> MixedTangent::rest_of(const Equilibrium& body) const {
+std::vector<double> MixedTangent::rest_of(const Assembler& body) const {
   std::vector<double> A = body.K();
   const Pattern& pattern = body.pattern();
   for (int e : body.own_cells()) {
@@ -74,7 +80,11 @@ std::vector<double> MixedTangent::rest_of(const Equilibrium& body) const {
         const int* at = nullptr;
         for (int i = a; i < a + 3; ++i) {
           if (rows[i] < rows[j]) continue;
-          at = at ? at + 1 : std::lower_bound(begin, end, rows[i]);
+          if (at) {
+            at = at + 1;
+          } else {
+            at = std::lower_bound(begin, end, rows[i]);
+          }
           A[at - pattern.row.data()] -= D_[e] * b[i] * b[j];
         }
       }

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/linear/mixed.hpp"
 
 namespace langer {
@@ -16,13 +16,13 @@ namespace langer {
 class MixedTangent {
  public:
   // body: of 8-node hexahedra with a mean dilatation. nullptr: PETSc is not at hand, `why`
-  static std::unique_ptr<MixedTangent> of(const Equilibrium& body, int threads, std::string& why);
+  static std::unique_ptr<MixedTangent> of(const Assembler& body, int threads, std::string& why);
 
   // As assembled last; du_prescribed: (3 n) movement of prescribed dofs still to be made. b() is
   // then in the axes of the free rows.
-  void linearise(const Equilibrium& body, const VecX& du_prescribed);
-  std::vector<double> rest_of(const Equilibrium& body) const;  // A, from K()
-  std::vector<double>& b() { return b_; }                      // for who turns rows into other axes
+  void linearise(const Assembler& body, const VecX& du_prescribed);
+  std::vector<double> rest_of(const Assembler& body) const;  // A, from K()
+  std::vector<double>& b() { return b_; }                    // for who turns rows into other axes
   const VecX& D() const { return D_; }
   const std::vector<int>& cell_rows() const { return cell_rows_; }
   const MatX& rigid() const { return rigid_; }  // (rows, 6)

@@ -31,8 +31,8 @@ bool ContactInTangent::serves(const std::vector<RigidContact>& contacts) {
   return true;
 }
 
-ContactInTangent::ContactInTangent(const Equilibrium& body,
-                                   const std::vector<RigidContact>& contacts, double stiffness)
+ContactInTangent::ContactInTangent(const Assembler& body, const std::vector<RigidContact>& contacts,
+                                   double stiffness)
     : pattern_(body.pattern()), rho_(stiffness > 0 ? stiffness : 1) {
   const Dofs& dofs = body.dofs();
   begins_.assign(static_cast<std::size_t>(pattern_.n), -1);

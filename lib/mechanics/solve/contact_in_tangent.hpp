@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/mixed_tangent.hpp"
 #include "mechanics/solve/contact_state.hpp"
@@ -31,7 +31,7 @@ class ContactInTangent {
   static bool serves(const std::vector<RigidContact>& contacts);
   // refers to the body's pattern; stiffness: of the order of what the body opposes to a movement of
   // one node [N/mm]
-  ContactInTangent(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+  ContactInTangent(const Assembler& body, const std::vector<RigidContact>& contacts,
                    double stiffness);
 
   struct Answer {
@@ -47,7 +47,7 @@ class ContactInTangent {
   // The same without a factor, with the tangent of the body as `mixed` has split it; dp: change of
   // its pressures [MPa]. Nothing where that does not converge. Without candidates it solves for the
   // body alone.
-  std::optional<Answer> solve(const ContactState& state, const Equilibrium& body, const VecX& rhs,
+  std::optional<Answer> solve(const ContactState& state, const Assembler& body, const VecX& rhs,
                               MixedTangent& mixed, VecX& dp);
   // What was solved before has no say any more: an interrupted path goes on with the same digits.
   void begin_increment() { settled_ = candidates_.empty(); }

@@ -87,7 +87,7 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
 // Multigrid is made anew where more than a few candidates do something else than in it, each of
 // which costs some products, or where many products tell that it is old.
 std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state,
-                                                                const Equilibrium& body,
+                                                                const Assembler& body,
                                                                 const VecX& rhs,
                                                                 MixedTangent& mixed, VecX& dp) {
   constexpr int few = 4, many_products = 25;

@@ -86,7 +86,7 @@ std::optional<VecX> Statics::correction() {
 std::optional<VecX> Statics::correction_again() {
   if (!factor_serves_ || !prescribed_reached(u_, remaining_prescribed(u_))) return std::nullopt;
   again_ = true;
-  const VecX rhs = free_residual() + on_free_rows(equilibrium_.turned_dilatations());
+  const VecX rhs = free_residual() + on_free_rows(equilibrium_.dilatation_residual());
   return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
 }
 

@@ -73,7 +73,7 @@ void without_factor(const MixedSolver& mixed, bool contact, double rate, Forecas
 
 }  // namespace
 
-Forecast forecast(Equilibrium& body, const LinearSolver::Size& size,
+Forecast forecast(Assembler& body, const LinearSolver::Size& size,
                   const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
                   const std::vector<double>& stops, const CorrectionsBy& by) {
   Forecast out;

@@ -2,7 +2,7 @@
 // own operation counts and from how fast this machine multiplies matrices and assembles this body.
 #pragma once
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/mixed.hpp"
@@ -39,7 +39,7 @@ struct CorrectionsBy {
 
 // Of a body divided among ranks: the memory of all, the time of each; all of them call it.
 // Assembles `body` at rest once and multiplies matrices for some hundredths of a second.
-Forecast forecast(Equilibrium& body, const LinearSolver::Size& size,
+Forecast forecast(Assembler& body, const LinearSolver::Size& size,
                   const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
                   const std::vector<double>& stops, const CorrectionsBy& by);
 

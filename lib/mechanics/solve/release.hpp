@@ -1,4 +1,4 @@
-// Equilibrium in an increment where indenters adhere.
+// Assembler in an increment where indenters adhere.
 // Bonds soften, and where more of the body's energy waits than they can take, they let go in a
 // jump: there is no equilibrium near the last one. Then, in an increment that is short enough,
 // equilibrium is followed from that of the bonds as they were, by bonds that come loose as slowly

@@ -251,17 +251,18 @@ StateDerivative StateTangent::of_rest() const {
 }
 
 VecX StateTangent::on_free_rows(const StateDerivative& d) const {
-  Equilibrium& body = statics_.equilibrium_;
+  Assembler& body = statics_.equilibrium_;
   VecX all = VecX::Zero(body.dofs().n);
   for (std::size_t k = 0; k < d.r.size(); ++k)
     for (std::size_t i = 0; i < d.r[k].size(); ++i)
       all.segment<3>(3 * statics_.contacts_[k].nodes[i]) += d.r[k][i];
-  if (const VecX beside = body.beside_K(statics_.now_.u, d.u); beside.size() > 0) all -= beside;
+  if (const VecX beside = body.nonsymmetric_part(statics_.now_.u, d.u); beside.size() > 0)
+    all -= beside;
   return statics_.on_free_rows(all) - body.K_times(statics_.on_free_rows(d.u));
 }
 
 VecX StateTangent::on_free_rows(const ParameterChange& change) const {
-  Equilibrium& body = statics_.equilibrium_;
+  Assembler& body = statics_.equilibrium_;
   VecX all = change.f.size() > 0 ? change.f : VecX(VecX::Zero(body.dofs().n));
   if (change.prescribed.size() > 0) {
     body.assemble(statics_.now_.u, true, &change.prescribed);
@@ -325,14 +326,14 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
 std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& changes,
                                           const std::vector<StateDerivative>& derivatives,
                                           std::vector<double>* energies) const {
-  Equilibrium& body = statics_.equilibrium_;
+  Assembler& body = statics_.equilibrium_;
   if (energies) energies->assign(derivatives.size(), 0);
   std::vector<VecX> u;
   for (const StateDerivative& d : derivatives) u.push_back(d.u);
-  std::vector<VecX> out = body.on_prescribed(statics_.now_.u, u);
+  std::vector<VecX> out = body.prescribed_rows_times(statics_.now_.u, u);
   for (std::size_t j = 0; j < out.size(); ++j) {
     double of_moduli = 0;
-    const VecX beside = body.beside_K(statics_.now_.u, u[j], &of_moduli);
+    const VecX beside = body.nonsymmetric_part(statics_.now_.u, u[j], &of_moduli);
     if (energies) (*energies)[j] = body.f_int().dot(u[j]) + of_moduli;
     for (const Prescribed& p : body.dofs().prescribed) {
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];

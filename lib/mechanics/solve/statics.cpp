@@ -12,7 +12,7 @@ namespace langer {
 
 namespace {
 
-TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+TangentFactor timed_factor(const Assembler& body, const std::vector<RigidContact>& contacts,
                            const StaticsOptions& options, double& seconds) {
   const Stopwatch watch(seconds);
   return {body, contacts, options.threads, options.contact_by, options.linear_by};
@@ -20,7 +20,7 @@ TangentFactor timed_factor(const Equilibrium& body, const std::vector<RigidConta
 
 }  // namespace
 
-Statics::Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts,
+Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
                  const StaticsOptions& options)
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),

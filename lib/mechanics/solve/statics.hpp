@@ -1,4 +1,4 @@
-// Equilibrium of one body with supports and rigid contacts at a value of the path parameter t.
+// Assembler of one body with supports and rigid contacts at a value of the path parameter t.
 // Holds the last accepted state and the state on trial; gives the nonlinear solvers their Problem.
 //   K dx = -(F_int - F_ext - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs
 //   24-32
@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/contact/touch.hpp"
 #include "mechanics/nonlinear/free_balance.hpp"
@@ -55,7 +55,7 @@ struct StaticsOptions {
 
 class Statics {
  public:
-  Statics(Equilibrium& equilibrium, std::vector<RigidContact> contacts,
+  Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
           const StaticsOptions& options);
 
   void begin(double t);  // put the trial state at the start of an increment to t
@@ -162,7 +162,7 @@ class Statics {
   VecX free_residual() const;                // -(F_int - F_ext - R) on the free rows
   VecX on_free_rows(const VecX& all) const;  // of (3 n)
 
-  Equilibrium& equilibrium_;
+  Assembler& equilibrium_;
   std::vector<RigidContact> contacts_;
   StaticsOptions options_;
   Cost cost_;

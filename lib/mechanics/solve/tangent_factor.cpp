@@ -20,7 +20,7 @@ constexpr double deep = 8;
 constexpr int large = 100000;
 
 // of the order of what the body opposes to a movement of one node
-double node_stiffness(const Equilibrium& body) {
+double node_stiffness(const Assembler& body) {
   double mu = 0;
   const int n_cells = body.mesh().n_cells();
   for (int e = 0; e < n_cells; ++e) mu = std::max(mu, std::abs(shear_modulus(body.material(e))));
@@ -50,7 +50,7 @@ std::string why_by_factor(const Mesh& mesh, const Dofs& dofs, Formulation formul
   return "";
 }
 
-TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts,
                              int threads, ContactBy contact_by, LinearBy linear_by)
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
@@ -86,14 +86,14 @@ TangentFactor::TangentFactor(const Equilibrium& body, const std::vector<RigidCon
       body);  // the weak resistance of contact to a free motion stays visible beside it
 }
 
-void TangentFactor::take_into_tangent(const Equilibrium& body,
+void TangentFactor::take_into_tangent(const Assembler& body,
                                       const std::vector<RigidContact>& contacts) {
   in_tangent_ = std::make_unique<ContactInTangent>(body, contacts, node_stiffness(body));
   linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
 }
 
-bool TangentFactor::take_iterative(const Equilibrium& body,
-                                   const std::vector<RigidContact>& contacts, LinearBy linear_by) {
+bool TangentFactor::take_iterative(const Assembler& body, const std::vector<RigidContact>& contacts,
+                                   LinearBy linear_by) {
   std::string why = why_by_factor(body.mesh(), body.dofs(), body.formulation(), contacts,
                                   body.loads().follow(), linear_by);
   if (why.empty()) mixed_ = MixedTangent::of(body, threads_, why);
@@ -109,7 +109,7 @@ bool TangentFactor::take_iterative(const Equilibrium& body,
   return mixed_ != nullptr;
 }
 
-void TangentFactor::take_factor(const Equilibrium& body) {
+void TangentFactor::take_factor(const Assembler& body) {
   by_factor_ = gave_up_ = true;
   linear_ = std::make_unique<LinearSolver>(body.pattern(), std::vector<int>{}, threads_);
 }
@@ -127,7 +127,7 @@ void TangentFactor::begin_increment() {
   in_tangent_->begin_increment();
 }
 
-bool TangentFactor::factorize(const Equilibrium& body) {
+bool TangentFactor::factorize(const Assembler& body) {
   ++counts_.factorizations;
   kind_ = Kind::whole;
   if (!supported_ && loose_ == 0 && linear_->factorize(body.K())) return true;
@@ -138,7 +138,7 @@ bool TangentFactor::factorize(const Equilibrium& body) {
   return linear_->factorize_indefinite(body.K());
 }
 
-bool TangentFactor::factorize_supported(const Equilibrium& body) {
+bool TangentFactor::factorize_supported(const Assembler& body) {
   kind_ = Kind::supported;
   const Pattern& pattern = body.pattern();
   double diagonal = 0;  // a column starts with its diagonal
@@ -170,7 +170,7 @@ bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
   return linear_->factorize_indefinite(values);
 }
 
-bool TangentFactor::factorize_fixed_reactions(const Equilibrium& body) {
+bool TangentFactor::factorize_fixed_reactions(const Assembler& body) {
   ++counts_.factorizations;
   kind_ = Kind::whole, supported_ = false;
   if (linear_->factorize(body.K())) return true;

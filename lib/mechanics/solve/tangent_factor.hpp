@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/linear_by.hpp"
@@ -37,18 +37,18 @@ class TangentFactor {
 
   // threads: of the BLAS; refers to the pattern of the body. Failure(config) where
   // LinearBy::iterative is asked for and does not serve.
-  TangentFactor(const Equilibrium& body, const std::vector<RigidContact>& contacts, int threads,
+  TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts, int threads,
                 ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment();
   // The body's K; false where it is singular.
-  bool factorize(const Equilibrium& body);
+  bool factorize(const Assembler& body);
   // What contact makes of the tangent, where it stands in it: by Cholesky, or by UMFPACK.
   bool factorize_with_contact(const std::vector<double>& values);
   // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not
   // positive definite.
-  bool factorize_fixed_reactions(const Equilibrium& body);
+  bool factorize_fixed_reactions(const Assembler& body);
 
   // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
   MixedTangent* mixed() const { return by_factor_ ? nullptr : mixed_.get(); }
@@ -56,7 +56,7 @@ class TangentFactor {
   // In the rest of this increment by a factor, which only one rank can make, as the iterative
   // solution did not converge. The next one begins as if nothing had been, so that an interrupted
   // path goes on with the same digits.
-  void take_factor(const Equilibrium& body);
+  void take_factor(const Assembler& body);
   bool gave_up_iterating() const { return gave_up_; }  // ever
   LinearSolver::Size size() const;
 
@@ -84,10 +84,10 @@ class TangentFactor {
   }
 
  private:
-  bool take_iterative(const Equilibrium& body, const std::vector<RigidContact>& contacts,
+  bool take_iterative(const Assembler& body, const std::vector<RigidContact>& contacts,
                       LinearBy linear_by);
-  void take_into_tangent(const Equilibrium& body, const std::vector<RigidContact>& contacts);
-  bool factorize_supported(const Equilibrium& body);
+  void take_into_tangent(const Assembler& body, const std::vector<RigidContact>& contacts);
+  bool factorize_supported(const Assembler& body);
 
   std::vector<int> last_, last_of_;
   std::unique_ptr<ContactInTangent> in_tangent_;

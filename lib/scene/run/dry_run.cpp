@@ -48,7 +48,7 @@ void need_memory(const Statics& statics, const Statics* beside, int threads) {
           "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
 }
 
-Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics,
+Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,
                      const std::vector<double>& stops) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   return forecast(body, statics.size(), statics.contacts(), config.path, stops,
@@ -61,7 +61,7 @@ Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& m
   return forecast_of(config, run.body, run.statics, run.scene.stops);
 }
 
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body,
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
                              const Statics& statics, double estimate, bool quiet) {
   const double free = std::min(free_memory(), free_address());
   const Forecast f = forecast_of(config, body, statics, scene.stops);
@@ -85,7 +85,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equi
                            scene.directions.from_field() ? ", directions from a field" : ""));
     if (body.viscous())
       line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory",
-                                  memory_in_words(body.memory()->bytes())));
+                                  memory_in_words(body.viscous_points()->bytes())));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts)
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),

@@ -22,7 +22,7 @@ std::string duration_in_words(double seconds);  // "40 s"
 void need_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
-Forecast forecast_of(const SolveConfig& config, Equilibrium& body, const Statics& statics,
+Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,
                      const std::vector<double>& stops);
 
 // of a scene that is made for it
@@ -31,7 +31,7 @@ Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& m
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
 // estimate: seconds that the estimate of its errors takes, 0 where none is wanted
-std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Equilibrium& body,
+std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
                              const Statics& statics, double estimate, bool quiet);
 
 }  // namespace langer

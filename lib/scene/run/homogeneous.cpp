@@ -109,8 +109,8 @@ HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const S
   corner_node_.fill(-1);
   if (!recognise(mesh, scene)) return;
   seconds_ = config.path.seconds.value_or(0);
-  whole_ = std::make_unique<Equilibrium>(mesh, scene.materials, scene.directions, scene.formulation,
-                                         scene.dofs, config.threads);
+  whole_ = std::make_unique<Assembler>(mesh, scene.materials, scene.directions, scene.formulation,
+                                       scene.dofs, config.threads);
   if (!scene.loads.empty()) whole_->set_loads({mesh, scene.loads});
 }
 
@@ -168,8 +168,8 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   return scene_.dofs.n_free() > 0;  // nothing to solve where every corner is told where to go
 }
 
-Equilibrium HomogeneousScene::equilibrium() const {
-  return Equilibrium(mesh_, scene_.materials, scene_.directions, scene_.formulation, scene_.dofs);
+Assembler HomogeneousScene::assembler() const {
+  return Assembler(mesh_, scene_.materials, scene_.directions, scene_.formulation, scene_.dofs);
 }
 
 bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {

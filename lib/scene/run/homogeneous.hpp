@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 #include "mechanics/solve/statics.hpp"
 #include "results/store/solution_file.hpp"
 #include "scene/model/scene.hpp"
@@ -28,7 +28,7 @@ class HomogeneousScene {
 
   const Mesh& mesh() const { return mesh_; }  // the hexahedron
   const Scene& scene() const { return scene_; }
-  Equilibrium equilibrium() const;
+  Assembler assembler() const;
   std::variant<NewtonOptions, KinsolOptions> solver() const {
     return solver_;
   }  // more exact than the config's: it costs nothing
@@ -41,9 +41,9 @@ class HomogeneousScene {
   SolveReport report(const SolveReport& of_point, const StepRecord& whole) const;
   const std::vector<std::array<double, 8>>& weights() const {
     return N_;
-  }                                                 // by node of the mesh: of the corners
-  Equilibrium& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
-  void replay(const StepRecord& whole) const;       // a step that was found before
+  }                                               // by node of the mesh: of the corners
+  Assembler& of_mesh() const { return *whole_; }  // at the state that whole() was asked for last
+  void replay(const StepRecord& whole) const;     // a step that was found before
 
  private:
   HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config);
@@ -58,7 +58,7 @@ class HomogeneousScene {
   std::variant<NewtonOptions, KinsolOptions> asked_, solver_;  // the config's, and more exact
   std::array<int, 8> corner_node_;                             // of the mesh
   std::vector<std::array<double, 8>> N_;  // by node of the mesh: weights of the corners
-  std::unique_ptr<Equilibrium> whole_;    // balance of the mesh
+  std::unique_ptr<Assembler> whole_;      // balance of the mesh
   double seconds_ = 0;                    // of the path
   double rounding_of_J_ = 0;  // kappa eps over the largest face: what that of det F leaves [N]
   mutable double t_ = 0;      // of the last step of a viscous body, and its displacements

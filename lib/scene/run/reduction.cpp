@@ -47,12 +47,15 @@ const Scene& Reduction::scene() const {
   return point_ ? point_->scene() : part_ ? part_->scene() : scene_;
 }
 
-Equilibrium Reduction::equilibrium(std::optional<Division> division) const {
-  const std::vector<double> share = part_ ? part_->cell_share() : std::vector<double>{};
-  Equilibrium body(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs,
-                   point_ ? 1 : threads_, Kernel::packets, share, std::move(division));
-  if (!scene().loads.empty()) body.set_loads({mesh(), scene().loads, share});
-  return body;
+Assembler Reduction::assembler(std::optional<Division> division) const {
+  std::vector<double> share;
+  if (part_) share = part_->cell_share();
+  Loads loads;
+  if (!scene().loads.empty()) loads = Loads(mesh(), scene().loads, share);
+  const int threads = point_ ? 1 : threads_;
+  return Assembler(mesh(), scene().materials, scene().directions, scene().formulation,
+                   scene().dofs, threads, Kernel::packets, share, std::move(division),
+                   std::move(loads));
 }
 
 Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }
@@ -82,7 +85,7 @@ SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_w
 
 const HomogeneousScene* Reduction::point() const { return point_.get(); }
 
-Equilibrium* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
+Assembler* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
 
 void Reduction::replay(const StepRecord& of_whole) const {
   if (point_) point_->replay(of_whole);

@@ -35,7 +35,7 @@ class Reduction {
   Kind kind() const;
   const Mesh& mesh() const;  // of the part, as what follows
   const Scene& scene() const;
-  Equilibrium equilibrium(std::optional<Division> division = {}) const;
+  Assembler assembler(std::optional<Division> division = {}) const;
   Solver solver(
       const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
   std::string words()
@@ -49,8 +49,8 @@ class Reduction {
   BodyState reduced(const StepRecord& of_whole) const;   // to continue from
   void replay(const StepRecord& of_whole) const;  // of a viscous body: a step that was found before
   const HomogeneousScene* point() const;          // or nullptr
-  Equilibrium* mesh_of_point() const;  // the mesh that a hexahedron stands for, at the state
-                                       // whole() was asked for last; else nullptr
+  Assembler* mesh_of_point() const;  // the mesh that a hexahedron stands for, at the state
+                                     // whole() was asked for last; else nullptr
 
  private:
   const Mesh& mesh_;

@@ -31,7 +31,7 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
     : mesh(std::move(mesh_)),
       scene(make_scene(config, mesh, material, where)),
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
-      body(reduction.equilibrium(by_ranks ? divided(reduction, config, why_alone) : std::nullopt)),
+      body(reduction.assembler(by_ranks ? divided(reduction, config, why_alone) : std::nullopt)),
       statics(body, reduction.scene().contacts, threads_of(config)),
       path(config.path),
       solver(reduction.solver(config.solver)) {}
@@ -41,7 +41,7 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
     : mesh(std::move(mesh_)),
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
-      body(reduction.equilibrium()),
+      body(reduction.assembler()),
       statics(body, reduction.scene().contacts, with_seconds(options, path_)),
       path(path_),
       solver(std::move(solver_)) {}

@@ -51,7 +51,7 @@ class Run {
   const Scene scene;  // of the whole body
   const Reduction reduction;
   std::string why_alone;  // where it is not divided among ranks that are there
-  Equilibrium body;       // balance of the part
+  Assembler body;         // balance of the part
   Statics statics;
   LoadPathOptions path;
   Solver solver;

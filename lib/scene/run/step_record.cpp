@@ -50,7 +50,7 @@ namespace {
 
 // means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress,
 // I4_bar of the first family
-void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u) {
+void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
   const int n = body.mesh().n_cells();
   bool fibres = false;
   for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
@@ -62,7 +62,7 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
     const std::vector<Vec6> branches =
-        body.viscous() ? body.memory()->stresses(e) : std::vector<Vec6>{};
+        body.viscous() ? body.viscous_points()->stresses(e) : std::vector<Vec6>{};
     const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
                                      body.element_displacements(u, e), branches);
     const double w = 1.0 / static_cast<double>(states.size());
@@ -77,7 +77,7 @@ void add_cell_fields(StepRecord& record, const Equilibrium& body, const VecX& u)
 
 }  // namespace
 
-void hang(const Equilibrium& body, const VecX& u, std::vector<Vec3>& nodal) {
+void hang(const Assembler& body, const VecX& u, std::vector<Vec3>& nodal) {
   for (const HangingNode& h : body.mesh().hanging) {
     nodal[h.node].setZero();
     for (int n : h.of) nodal[h.node] += 0.25 * displacement(body.dofs(), u, n);
@@ -89,7 +89,7 @@ Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
                                indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
 }
 
-StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next,
+StepRecord step_record(const Statics& statics, const Assembler& body, double taken, double next,
                        const SolveReport& report) {
   const BodyState& state = statics.accepted();
   StepRecord record;

@@ -19,8 +19,8 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
 // of the indenter at a recorded step [mm]
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step);
 // of the nodes of a body that hang, what those they hang on have of u
-void hang(const Equilibrium& body, const VecX& u, std::vector<Vec3>& nodal);
-StepRecord step_record(const Statics& statics, const Equilibrium& body, double taken, double next,
+void hang(const Assembler& body, const VecX& u, std::vector<Vec3>& nodal);
+StepRecord step_record(const Statics& statics, const Assembler& body, double taken, double next,
                        const SolveReport& report);
 BodyState state_of(const StepRecord& record, const Scene& scene);
 

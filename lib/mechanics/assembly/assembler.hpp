@@ -1,0 +1,151 @@
+// Assembly of a meshed body: internal and external forces, and the tangent.    [A23] eqs 31-33
+//   F_int(u) - F_ext - R = 0
+// Vectors have one entry per degree of freedom (3 n). The tangent has the free rows only, lower
+// triangle in the order of its pattern.
+//
+// The parts of an assembly:
+//   BodyModel        elements, materials, degrees of freedom        body_model.hpp
+//   ElementPackets   forces and stiffness of eight elements at once  element_packets.hpp
+//   PressureField    condensed pressures of mixed elements           pressure_field.hpp
+//   ViscousState     branch stresses of viscous materials            viscous_state.hpp
+//   SparseTangent    the global matrix                               sparse_tangent.hpp
+//   Loads            tractions and pressures on the surface          loads.hpp
+// The parallel loop over elements is here. Contributions are added in a fixed order, so that the
+// number of threads does not change a bit of the result. On several ranks K() contains the elements
+// of this rank only; forces, energy and bounds are those of the whole body on every rank.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mechanics/assembly/body_model.hpp"
+#include "mechanics/assembly/element_packets.hpp"
+#include "mechanics/assembly/loads.hpp"
+#include "mechanics/assembly/pressure_field.hpp"
+#include "mechanics/assembly/sparse_tangent.hpp"
+#include "mechanics/assembly/viscous_state.hpp"
+
+namespace langer {
+
+class Assembler {
+ public:
+  Assembler(const Mesh& mesh, std::vector<Material> materials, Directions directions,
+            Formulation formulation, Dofs dofs, int threads = 1, Kernel kernel = Kernel::packets,
+            const std::vector<double>& cell_share = {}, std::optional<Division> division = {},
+            Loads loads = {});
+  Assembler(const Assembler&) = delete;  // its parts refer to its body
+  Assembler& operator=(const Assembler&) = delete;
+
+  // Forces on the surface, at t from now on. K() then contains the symmetric part of the stiffness
+  // of pressures.
+  void set_loads(Loads loads);
+  const Loads& loads() const { return loads_; }
+  void load_to(double t) { t_loads_ = t; }
+
+  // Forces and, if requested, the tangent at u. False if an element is turned inside out, or a
+  // force is not finite. du_prescribed: the displacement of prescribed unknowns that is still to be
+  // made; K_du() is its effect.
+  bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);
+
+  const VecX& f_int() const { return f_; }      // (3 n) [N]
+  const VecX& f_ext() const { return f_ext_; }  // (3 n) [N]; empty without loads
+  const std::vector<double>& K() const { return tangent_.values(); }  // (nnz) [N/mm]
+  const VecX& K_du() const { return K_du_; }                          // (3 n) [N]
+  double W() const { return W_; }          // energy [N mm]; of viscous bodies that of equilibrium
+  double J_min() const { return J_min_; }  // smallest det F
+  double smallest_J(const VecX& u) const;  // the same, without assembling
+  // Rounding error of the residual: kappa eps |grad u| through each element's dilatation [N].
+  double rounding_floor() const { return floor_; }
+
+  // Pressures of the tangent.
+  const PressureField& pressures() const { return pressures_; }
+  // After a correction du, of which the fraction `step` was taken. kept: the correction was solved
+  // with the tangent of keep_dilatations().
+  void predict_pressures(const VecX& du, double step, bool kept = false) {
+    pressures_.predict(du, step, kept);
+  }
+  void keep_dilatations() { pressures_.keep_gradients(); }
+  void move_pressures(const VecX& dp, double step) { pressures_.move(dp, step); }
+  void pressures_from(const VecX& u);  // kappa (J - 1) at u, without predictions
+  // p + s (p - p_before), with p_before at u_before; J - 1 at an extrapolated u would mean nothing.
+  void extrapolate_pressures(const VecX& u_before, double s);
+  VecX dilatation_residual() const { return pressures_.dilatation_residual(); }
+  using VolumetricPart = PressureField::VolumetricPart;
+  VolumetricPart volumetric_part() const { return pressures_.volumetric_part(); }
+
+  // Other parameters of the same materials, and directions of as many families, from the next
+  // assembly on. Pressures of the tangent stay until pressures_from().
+  void set_materials(std::vector<Material> materials, Directions directions);
+  // Forces of such materials at u, with the pressures that belong to them. The body keeps its own
+  // materials and forces.
+  struct Forces {
+    VecX f;        // (3 n) f_int [N]
+    double W = 0;  // [N mm]
+  };
+  Forces forces_of(std::vector<Material> materials, Directions directions, const VecX& u);
+
+  // Derivatives of f_int - f_ext at the u assembled last, if K() was made with the pressures of
+  // that u (directional_derivative.cpp).
+  VecX K_times(const VecX& v) const { return tangent_.times(v); }  // v of the free rows
+  // What K() omits: the bubble modulus depends on u, and pressures on a free rim are not symmetric.
+  // (3 n), for v (3 n) that moves no prescribed unknown; empty if there is nothing. W: the part of
+  // the bubble modulus in the change of W(), f_int . v.
+  VecX nonsymmetric_part(const VecX& u, const VecX& v, double* W = nullptr);
+  // Forces of pressures that change when the body at u moves by du, without what K() has: (3 n)
+  // [N].
+  VecX skew_pressures(const VecX& u, const VecX& du) const;
+  // On the rows of prescribed unknowns, d f_int of each v; 0 elsewhere; (3 n) each.
+  std::vector<VecX> prescribed_rows_times(const VecX& u, const std::vector<VecX>& v) const;
+
+  // Increments of a viscous body, of `seconds`. Without effect on an elastic body.
+  bool viscous() const { return viscous_.present(); }
+  void begin_increment(double seconds);
+  double end_increment(const VecX& u) { return viscous_.end(u); }  // found; error of the time step
+  void accept_increment(const VecX& u0, const VecX& u) { viscous_.accept(u0, u); }
+  const std::optional<ViscousPoints>& viscous_points() const { return viscous_.points(); }
+  double viscous_work() const { return viscous_.work(); }  // [N mm]
+
+  const BodyModel& model() const { return body_; }
+  const Pattern& pattern() const { return tangent_.pattern(); }
+  const Mesh& mesh() const { return body_.mesh(); }
+  const Dofs& dofs() const { return body_.dofs(); }
+  const Division* division() const { return body_.division(); }
+  const std::vector<int>& own_cells() const { return body_.own_cells(); }
+  Formulation formulation() const { return body_.formulation(); }
+  const std::vector<Material>& materials() const { return body_.materials(); }
+  const Directions& directions() const { return body_.directions(); }
+  const Material& material(int e) const { return body_.material(e); }
+  std::span<const Vec3> fibres(int e) const { return body_.fibres(e); }
+  const ElementGeometry& geometry(int e) const { return body_.geometry(e); }
+  std::vector<int> element_dofs() const { return body_.element_dofs(); }
+  ElementNodes element_displacements(const VecX& u, int e) const {
+    return body_.displacements(u, e);
+  }
+
+ private:
+  void add_block(std::size_t b, const PacketElement& element, const VecX& u, bool with_tangent,
+                 const VecX* du_prescribed);
+  void add_internal_force(int e, const PacketElement& element, int lane);
+  double rounding_error(int e, const VecX& u) const;
+  void add_prescribed_effect(int e, const PacketElement& element, int lane, const VecX& du);
+  void add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed);
+  void add_load_stiffness(int e, const MatX& stiffness, const VecX* du_prescribed);
+  void sum_over_ranks(bool with_tangent);
+  VecX loads_times(const VecX& u, const VecX& v) const;
+  VecX bubble_part(const VecX& u, const VecX& v, double* W);
+
+  BodyModel body_;
+  ElementPackets packets_;
+  PressureField pressures_;
+  ViscousState viscous_;
+  SparseTangent tangent_;
+  Loads loads_;
+  double t_loads_ = 0;
+  int threads_;
+  VecX f_, K_du_, f_ext_;
+  double W_ = 0;
+  double J_min_ = 1;
+  double floor_ = 0;
+};
+
+}  // namespace langer

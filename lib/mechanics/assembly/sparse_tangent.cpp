@@ -1,0 +1,191 @@
+#include "mechanics/assembly/sparse_tangent.hpp"
+
+#include <algorithm>
+
+namespace langer {
+
+namespace {
+
+// Place of entry (i, j) of a symmetric element matrix, stored as its lower triangle row by row.
+int triangle_entry(int i, int j) {
+  if (i < j) return j * (j + 1) / 2 + i;
+  return i * (i + 1) / 2 + j;
+}
+
+}  // namespace
+
+SparseTangent::SparseTangent(const BodyModel& body,
+                             const std::vector<ElementPackets::Block>& blocks)
+    : body_(body),
+      pattern_(make_pattern(body.mesh(), body.moving_nodes(), body.dofs(), body.own_cells())) {
+  find_first_elements(blocks);
+  values_.assign(pattern_.nnz(), 0);
+}
+
+void SparseTangent::find_first_elements(const std::vector<ElementPackets::Block>& blocks) {
+  const int per_element = pattern_.blocks_per_element;
+  overwrites_.assign(body_.own_cells().size() * per_element, 0);
+  std::vector<char> reached(pattern_.nnz(), 0);
+  for (const ElementPackets::Block& block : blocks) {
+    for (int l = 0; l < block.n; ++l) {
+      const int e = block.cells[l];
+      if (pattern_.scattered(e)) {
+        // Entries of such an element go to single positions, which are cleared beforehand.
+        for (int k = 0; k < pattern_.slots_per_element; ++k) {
+          const int at = pattern_.slots(e)[k];
+          if (at < 0 || reached[at]) continue;
+          reached[at] = 1;
+          cleared_.push_back(at);
+        }
+        continue;
+      }
+      for (int k = 0; k < per_element; ++k) {
+        const int at = pattern_.blocks(e)[3 * k];
+        if (at == Pattern::none) continue;
+        // The first entry stands for its block: no element reaches only a part of a block.
+        char& first_entry = reached[at >= 0 ? at : Pattern::turned(at)];
+        overwrites_[pattern_.number(e) * per_element + k] = !first_entry;
+        first_entry = 1;
+      }
+    }
+  }
+}
+
+void SparseTangent::begin() {
+  for (int position : cleared_) values_[position] = 0;
+}
+
+void SparseTangent::add(int e, const PacketElement& element, int lane) {
+  if (body_.tied(e)) {
+    add_tied(e, element, lane);
+  } else {
+    add_free(e, element, lane);
+  }
+}
+
+void SparseTangent::add_free(int e, const PacketElement& element, int lane) {
+  if (pattern_.scattered(e)) {
+    const int* slot = pattern_.slots(e);
+    for (int k = 0; k < pattern_.slots_per_element; ++k) {
+      if (slot[k] >= 0) values_[slot[k]] += element.K[k][lane];
+    }
+    return;
+  }
+
+  // Three columns of a block of two nodes, each n entries long from `position` on.
+  const auto add_column = [this](int position, bool overwrite, int n, const auto& value) {
+    static constexpr double zero[3] = {};
+    double* to = &values_[position];
+    const double* before = overwrite ? zero : to;
+    for (int i = 0; i < n; ++i) to[i] = before[i] + value(i);
+  };
+  const int* at = pattern_.blocks(e);
+  const char* overwrites = &overwrites_[pattern_.number(e) * pattern_.blocks_per_element];
+  for (int a = 0; a < body_.n_nodes(); ++a) {
+    const Packet* row[3];
+    for (int i = 0; i < 3; ++i) row[i] = &element.K[(3 * a + i) * (3 * a + i + 1) / 2];
+    for (int b = 0; b <= a; ++b, at += 3, ++overwrites) {
+      if (at[0] == Pattern::none) continue;
+      if (a == b) {
+        for (int j = 0; j < 3; ++j) {
+          const auto value = [&](int i) {
+            return row[i + j][3 * b + j][lane];
+          };
+          add_column(at[j], *overwrites, 3 - j, value);
+        }
+      } else if (at[0] >= 0) {
+        for (int j = 0; j < 3; ++j) {
+          const auto value = [&](int i) {
+            return row[i][3 * b + j][lane];
+          };
+          add_column(at[j], *overwrites, 3, value);
+        }
+      } else {
+        for (int i = 0; i < 3; ++i) {
+          const auto value = [&](int j) {
+            return row[i][3 * b + j][lane];
+          };
+          add_column(Pattern::turned(at[i]), *overwrites, 3, value);
+        }
+      }
+    }
+  }
+}
+
+// The stiffness of an element with tied nodes, rotated to the nodes that they move with.
+void SparseTangent::add_tied(int e, const PacketElement& element, int lane) {
+  const auto nodes = body_.nodes(e);
+  const int* slot = pattern_.slots(e);
+  for (int a = 0; a < body_.n_nodes(); ++a) {
+    for (int b = 0; b <= a; ++b) {
+      Mat3 K;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          K(i, j) = element.K[triangle_entry(3 * a + i, 3 * b + j)][lane];
+        }
+      }
+      const Image& row = body_.dofs().tie[nodes[a]];
+      const Image& column = body_.dofs().tie[nodes[b]];
+      K = row.T.transpose() * K * column.T;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
+          const int at = slot[triangle_entry(3 * a + i, 3 * b + j)];
+          if (at >= 0) values_[at] += multiplicity(e, a, b, i, j) * K(i, j);
+        }
+      }
+    }
+  }
+}
+
+void SparseTangent::add_block(int e, int a, int b, const Mat3& K) {
+  const bool tied = body_.tied(e);
+  Mat3 rotated = K;
+  if (tied) {
+    const auto nodes = body_.nodes(e);
+    const std::vector<Image>& tie = body_.dofs().tie;
+    rotated = tie[nodes[a]].T.transpose() * K * tie[nodes[b]].T;
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
+      const int at = position(e, 3 * a + i, 3 * b + j);
+      if (at >= 0) values_[at] += (tied ? multiplicity(e, a, b, i, j) : 1) * rotated(i, j);
+    }
+  }
+}
+
+// Two nodes that move with one: both halves of the symmetric matrix meet on its diagonal.
+int SparseTangent::multiplicity(int e, int a, int b, int i, int j) const {
+  const auto nodes = body_.nodes(e);
+  const std::vector<Image>& tie = body_.dofs().tie;
+  const bool meet = a != b && i == j && tie[nodes[a]].of == tie[nodes[b]].of;
+  return meet ? 2 : 1;
+}
+
+int SparseTangent::position(int e, int row, int column) const {
+  if (pattern_.scattered(e)) return pattern_.slots(e)[row * (row + 1) / 2 + column];
+  const int a = row / 3;
+  const int b = column / 3;
+  const int i = row % 3;
+  const int j = column % 3;
+  const int* at = pattern_.blocks(e) + 3 * (a * (a + 1) / 2 + b);
+  if (at[0] == Pattern::none) return Pattern::none;
+  if (a == b) return at[j] + i - j;
+  if (at[0] >= 0) return at[j] + i;
+  return Pattern::turned(at[i]) + j;
+}
+
+VecX SparseTangent::times(const VecX& v) const {
+  VecX out = VecX::Zero(v.size());
+  for (int column = 0; column < pattern_.n; ++column) {
+    int at = pattern_.column_start[column];
+    double sum = values_[at] * v[column];  // a column starts with its diagonal
+    for (++at; at < pattern_.column_start[column + 1]; ++at) {
+      out[pattern_.row[at]] += values_[at] * v[column];
+      sum += values_[at] * v[pattern_.row[at]];
+    }
+    out[column] += sum;
+  }
+  return out;
+}
+
+}  // namespace langer
