@@ -2,6 +2,7 @@
 // also as table.csv; figures and maps of all members.
 #include <cstdlib>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
 #include "identification/inverse/parameter_sample.hpp"
 #include "pipeline/sweep/design_tables.hpp"
@@ -29,12 +30,13 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
       if (map.name == name) found.push_back(&map);
     }
     if (found.size() == i + 1) continue;
-    const std::string key = "maps." + name, near = nearest(name, known);
+    const std::string key = "maps." + name;
+    const std::string near = nearest(name, known);
     throw Failure(Exit::config,
                   Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
                         known.empty() ? "a file with maps: post has the key `maps`"
                                       : "one of " + list_words(known),
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                        did_you_mean(near)});
   }
   return found;
 }
@@ -165,7 +167,8 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   for (const FittedParameter& p : fit->parameters) {
     const std::array<double, 2> interval = interval_95(p);
     const double row[] = {p.truth, p.value, p.standard_error, interval[0], interval[1]};
-    sweep.members.push_back(p.name), sweep.axes[0].values.push_back(p.name);
+    sweep.members.push_back(p.name);
+    sweep.axes[0].values.push_back(p.name);
     for (std::size_t k = 0; k < 5; ++k) sweep.columns[k].values.push_back(row[k]);
   }
   write_sweep(job.output, job.beside("table.csv"), sweep, nullptr, {}, job.identity);
@@ -197,8 +200,10 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
                           "nothing to gather",
                           "a file with a summary",
                           "curves.h5, material.h5, mesh.h5 and sensitivity.h5 have one"});
-    if (!config.members.empty())
-      member.path = config.members[i].path, member.at = config.members[i].at;
+    if (!config.members.empty()) {
+      member.path = config.members[i].path;
+      member.at = config.members[i].at;
+    }
     if (drawn) members.push_back({member.at, member.summary, curves_in(files[i])});
     inputs.push_back(std::move(member));
   }

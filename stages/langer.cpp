@@ -36,7 +36,8 @@ int show_files(const Given& given) {
 
 int new_project(const Given& given) {
   const std::string& scene = given.places[0];
-  const std::string folder = given.places.size() > 1 ? given.places[1] : scene;
+  std::string folder = scene;
+  if (given.places.size() > 1) folder = given.places[1];
   const std::vector<std::string> files = write_starter(scene, folder);
   say_line("langer: {} files in {}; to run them: make -C {}", files.size(), folder, folder);
   return 0;

@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
   using namespace langer;
   std::string file, folder;
   pipeline::Overrides overrides;
-  bool quiet = false, verbose = false, dry_run = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool dry_run = false;
   PlanFor others;
   Arguments options("langer-plan");
   options.text("pipeline", file, true);

@@ -121,7 +121,8 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
     const std::vector<double> values =
         measured(solution.body, measures, job.config.stress, state, gauss);
     for (std::size_t c = 0; c < values.size(); ++c) table.columns[c].values.push_back(values[c]);
-    table.t.push_back(state.t), table.u_ind.push_back(state.u_ind.norm());
+    table.t.push_back(state.t);
+    table.u_ind.push_back(state.u_ind.norm());
     if (const auto time = state.histories.find("time"); time != state.histories.end())
       table.seconds.push_back(time->second);
     else if (row == 0)
@@ -143,7 +144,8 @@ void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summ
                          [&](const Column& c) { return c.name == name; });
   };
   for (const auto& [name, choice] : job.config.cycles) {
-    const double lasts = table.seconds.size() == table.t.size() ? table.seconds.back() : 0;
+    double lasts = 0;
+    if (table.seconds.size() == table.t.size()) lasts = table.seconds.back();
     if (!(lasts >= choice.period * (1 - 1e-9)))
       refuse(job, {{"cycles." + name + ".period",
                     fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
@@ -151,9 +153,14 @@ void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summ
                     "path.seconds of the solve says how long it takes"}});
     const Column &of = column(choice.of), &over = column(choice.over);
     const Cycle cycle = last_cycle(table.seconds, over.values, of.values, choice.period);
-    const std::string unit = of.unit == over.unit ? "-"
-                             : over.unit == "-"   ? of.unit
-                                                  : of.unit + "/" + over.unit;
+    std::string unit;
+    if (of.unit == over.unit) {
+      unit = "-";
+    } else if (over.unit == "-") {
+      unit = of.unit;
+    } else {
+      unit = of.unit + "/" + over.unit;
+    }
     summary.push_back({"storage_" + name, cycle.storage, unit});
     summary.push_back({"loss_" + name, cycle.loss, unit});
     summary.push_back({"tan_delta_" + name, cycle.tan_delta(), "-"});

@@ -27,7 +27,11 @@ std::vector<Summary> report_on(const Job<ReportConfig>& job) {
                                       "--solution, --curves, --table, --material, ...",
                                       ""});
   ReportPage page;
-  page.title = job.config.title.empty() ? folder_title(job.output) : job.config.title;
+  if (job.config.title.empty()) {
+    page.title = folder_title(job.output);
+  } else {
+    page.title = job.config.title;
+  }
   std::map<std::string, std::vector<Source>> of;
   for (const auto& [port, files] : job.inputs) of[port] = labelled(files);
   add_materials(page, of["material"]);

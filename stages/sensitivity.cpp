@@ -92,7 +92,9 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   VecX value(k), lower(k), upper(k);
   for (Eigen::Index j = 0; j < k; ++j) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
-    value[j] = n.value, lower[j] = n.lower, upper[j] = n.upper;
+    value[j] = n.value;
+    lower[j] = n.lower;
+    upper[j] = n.upper;
   }
   const CurveMaker stress = stress_of(
       config, material, chosen.keys,
@@ -117,8 +119,10 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
       "one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen",
       config.steps, k, config.strain.points);
   SamplingOptions options;
-  options.seed = static_cast<std::uint64_t>(config.seed), options.threads = config.threads;
-  options.resamples = config.resamples, options.groups = points_in(record.strain, record.zones);
+  options.seed = static_cast<std::uint64_t>(config.seed);
+  options.threads = config.threads;
+  options.resamples = config.resamples;
+  options.groups = points_in(record.strain, record.zones);
   if (config.morris) {
     options.progress = progress_of("sensitivity", "Morris", job.quiet);
     record.morris =

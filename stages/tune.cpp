@@ -44,8 +44,10 @@ Levels levels_of(const Job<TuneConfig>& job) {
   Levels levels;
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {files[i]}, read_summary(files[i])};
-    if (!config.members.empty())
-      member.path = config.members[i].path, member.at = config.members[i].at;
+    if (!config.members.empty()) {
+      member.path = config.members[i].path;
+      member.at = config.members[i].at;
+    }
     const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
     if (!cost)
       job.say(
@@ -80,9 +82,9 @@ Reference reference_of(const Job<TuneConfig>& job, const Levels& levels,
     return {{values[i], 0, 0}, {i}};
   }
   const RichardsonConfig& r = *wanted.richardson;
-  const std::size_t coarse = levels.at(job, "reference.richardson.coarse", r.coarse),
-                    middle = levels.at(job, "reference.richardson.middle", r.middle),
-                    fine = levels.at(job, "reference.richardson.fine", r.fine);
+  const std::size_t coarse = levels.at(job, "reference.richardson.coarse", r.coarse);
+  const std::size_t middle = levels.at(job, "reference.richardson.middle", r.middle);
+  const std::size_t fine = levels.at(job, "reference.richardson.fine", r.fine);
   return {richardson(values[coarse], values[middle], values[fine], r.ratio), {fine}};
 }
 
@@ -107,13 +109,14 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
           const Levels& levels, const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
   const std::string head = "level,cpu_s,error_percent,error_low,error_high";
-  std::string all = head + "\n", best = head + ",number\n";
+  std::string all = head + "\n";
+  std::string best = head + ",number\n";
   std::vector<std::string>
       notes;  // names as long as these would stand on each other beside the points
   const auto line = [&](std::size_t i) {
-    const double e = errors.found[i],
-                 low = std::max(e - errors.uncertain,
-                                0.1 * e);  // an end of 0 has no place on a logarithmic axis
+    // an end of 0 has no place on a logarithmic axis
+    const double e = errors.found[i];
+    const double low = std::max(e - errors.uncertain, 0.1 * e);
     return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", csv_cell(name_of(levels.members[i])),
                        cpu[i], e, low, e + errors.uncertain);
   };
@@ -128,12 +131,18 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   write_text_file(job.beside(name + "_front.csv"), best);
   Plot plot;
   plot.title = job.config.title;
-  plot.x_label = "CPU time (s)", plot.y_label = "error of " + literal(quantity) + " (%)";
+  plot.x_label = "CPU time (s)";
+  plot.y_label = "error of " + literal(quantity) + " (%)";
   plot.scale = AxisScale::log;
   plot.lines = {{name + "_front.csv", "cpu_s", "error_percent", "front"},
                 {name + ".csv", "cpu_s", "error_percent", "levels"}};
-  plot.lines[0].names = "number", plot.notes = std::move(notes), plot.lines[1].points = true;
-  if (errors.uncertain > 0) plot.lines[1].low = "error_low", plot.lines[1].high = "error_high";
+  plot.lines[0].names = "number";
+  plot.notes = std::move(notes);
+  plot.lines[1].points = true;
+  if (errors.uncertain > 0) {
+    plot.lines[1].low = "error_low";
+    plot.lines[1].high = "error_high";
+  }
   pictures.draw(name, plot);
 }
 
@@ -179,9 +188,13 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   const Sweep values = gather(job.config.quantities, axes, levels.members, job.where("quantities"));
   Sweep sweep = values;
   std::vector<double> cpu, wall, memory;
-  for (const Cost& c : levels.cost)
-    cpu.push_back(c.cpu), wall.push_back(c.wall), memory.push_back(c.memory);
-  sweep.columns.push_back({"cpu", "s", cpu}), sweep.columns.push_back({"wall", "s", wall});
+  for (const Cost& c : levels.cost) {
+    cpu.push_back(c.cpu);
+    wall.push_back(c.wall);
+    memory.push_back(c.memory);
+  }
+  sweep.columns.push_back({"cpu", "s", cpu});
+  sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
   Pictures pictures(job.beside(""), job.config.figure_style);

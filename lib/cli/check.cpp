@@ -49,9 +49,11 @@ std::optional<std::string> kind_by_keys(const Tree& tree) {
     }
     if (known == 0) continue;
     const Score score{tree.map.size() - known, missing, keys.size() - known};
-    if (!best || score < least)
-      best = kind, least = score, tie = false;
-    else if (score == least)
+    if (!best || score < least) {
+      best = kind;
+      least = score;
+      tie = false;
+    } else if (score == least)
       tie = true;
   }
   return tie ? std::nullopt : best;

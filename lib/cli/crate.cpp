@@ -16,6 +16,7 @@
 #include "core/base/input_file.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/text.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
 #include "pipeline/plan/effective.hpp"
@@ -131,7 +132,7 @@ class Crate {
       : folder_(folder),
         rules_(rules_of(folder)),
         real_folder_(fs::canonical(folder)),
-        real_root_(fs::weakly_canonical(root.empty() ? "." : root)) {}
+        real_root_(fs::weakly_canonical(text_or(root, "."))) {}
 
   void need_all_done() const {
     std::size_t open = 0;
@@ -200,7 +201,8 @@ class Crate {
     std::size_t up = 0;
     for (const std::string& path : copied_)
       up = std::max(up, std::stoul(path.substr(std::string(inputs_folder).size() + 3)));
-    std::string run = "$new", copies;
+    std::string run = "$new";
+    std::string copies;
     for (std::size_t i = 0; i < up; ++i) run += "/run";
     for (std::size_t i = 1; i <= up; ++i) {
       std::string above = run;
@@ -312,7 +314,11 @@ class Crate {
     std::istringstream words(line);
     for (std::string port; words >> word;) {
       if (!port.empty()) ports[port].push_back(word);
-      port = word.starts_with("--") ? word.substr(2) : "";
+      if (word.starts_with("--")) {
+        port = word.substr(2);
+      } else {
+        port = "";
+      }
     }
     std::map<std::string, std::string> inputs;
     for (const auto& [port, paths] : ports)
@@ -412,7 +418,8 @@ class Crate {
     std::vector<std::string> parts_of_root, actions;
     for (const std::string& file : files) parts_of_root.push_back(uri(file));
     for (const MadeBy& rule : rules_) actions.push_back(action_id(rule));
-    const std::string title = words.title.empty() ? "Run of " + from + " by Langer" : words.title;
+    std::string title = words.title;
+    if (words.title.empty()) title = "Run of " + from + " by Langer";
     Parts root{
         {"name", text(title)},
         {"description",
@@ -460,7 +467,8 @@ std::string same_results(const std::string& folder, const std::string& other) {
     errors.push_back({{path}, "", std::move(how), "", ""});
   };
   for (const MadeBy& rule : rules_of(folder)) {
-    const fs::path here = fs::path(folder) / rule.target, there = fs::path(other) / rule.target;
+    const fs::path here = fs::path(folder) / rule.target;
+    const fs::path there = fs::path(other) / rule.target;
     if (!fs::is_regular_file(there)) {
       differs(there.string(), "is not there");
     } else if (here.extension() == ".h5") {

@@ -64,9 +64,11 @@ constexpr Tool tools[]{
 
 Finding tool(const Tool& t) {
   const std::string where = on_path(t.program);
-  const std::string install = *t.install ? fmt::format("; apt install {}", t.install) : "";
+  std::string install;
+  if (*t.install) install = fmt::format("; apt install {}", t.install);
   if (where.empty()) return {t.program, false, t.needed, t.without + install};
-  const std::string version = *t.ask ? said_by(t.ask) : "";
+  std::string version;
+  if (*t.ask) version = said_by(t.ask);
   return {t.program, true, t.needed,
           version.empty() ? where : fmt::format("{} ({})", where, version)};
 }
@@ -114,9 +116,10 @@ Finding python_package(const char* name, const char* debian, const char* without
 
 Finding machine() {
   struct statvfs disk {};
-  const double free = statvfs(".", &disk) == 0 ? 1e-9 * static_cast<double>(disk.f_bavail) *
-                                                     static_cast<double>(disk.f_frsize)
-                                               : 0;
+  double free = 0;
+  if (statvfs(".", &disk) == 0) {
+    free = 1e-9 * static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
+  }
   const double memory = 1e-9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                         static_cast<double>(sysconf(_SC_PAGESIZE));
   return {"machine", true, false,

@@ -5,6 +5,7 @@
 #include "cli/starter.hpp"
 #include "cli/usage.hpp"
 #include "core/base/split.hpp"
+#include "core/base/text.hpp"
 #include "core/base/version.hpp"
 #include "core/config/member.hpp"
 #include "pipeline/plan/effective.hpp"
@@ -27,7 +28,8 @@ std::string roff(const std::string& s) {
     else
       out += c;
   }
-  return !out.empty() && out[0] == '.' ? "\\&" + out : out;
+  if (!out.empty() && out[0] == '.') return "\\&" + out;
+  return out;
 }
 
 }  // namespace
@@ -47,8 +49,10 @@ Usage command(const char* program, const char* sentence, std::vector<UsageOption
 }
 
 std::vector<Usage> table_of_commands() {
-  std::vector<std::string> kinds = config_kind_names(), described = kinds;
-  kinds.push_back("pipeline"), described.push_back("columns");
+  std::vector<std::string> kinds = config_kind_names();
+  std::vector<std::string> described = kinds;
+  kinds.push_back("pipeline");
+  described.push_back("columns");
   return {
       command("langer show", "Prints what is in a file that Langer made.",
               {{"FILE",
@@ -144,7 +148,7 @@ Usage langer_usage() {
   for (const Usage& c : langer_commands())
     if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" ||
         c.program == "langer explain")
-      u.examples += (u.examples.empty() ? "" : "\n") + c.examples;
+      append(u.examples, "\n", c.examples);
   u.more = "The stages: ";
   for (const StageSpec& s : stages()) u.more += std::string("langer-") + s.name + ", ";
   u.more += "and langer-plan, which chains them.";
@@ -184,9 +188,12 @@ std::string man_text(const Usage& u) {
     for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
     s += ".fi\n";
   };
-  if (!u.reference.empty())
-    s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n", as_it_is(u.reference);
-  s += ".SH EXAMPLES\n", as_it_is(u.examples);
+  if (!u.reference.empty()) {
+    s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n";
+    as_it_is(u.reference);
+  }
+  s += ".SH EXAMPLES\n";
+  as_it_is(u.examples);
   s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
   s +=
       ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";

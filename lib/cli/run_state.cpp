@@ -34,8 +34,13 @@ void flatten(const Tree& tree, const std::string& path,
     flatten(value, path.empty() ? key : path + "." + key, leaves);
   for (std::size_t i = 0; i < tree.list.size(); ++i)
     flatten(tree.list[i], fmt::format("{}[{}]", path, i), leaves);
-  if (tree.kind == Tree::Kind::scalar || (tree.map.empty() && tree.list.empty()))
-    leaves[path] = tree.kind == Tree::Kind::scalar ? tree.scalar : "none";
+  if (tree.kind == Tree::Kind::scalar || (tree.map.empty() && tree.list.empty())) {
+    if (tree.kind == Tree::Kind::scalar) {
+      leaves[path] = tree.scalar;
+    } else {
+      leaves[path] = "none";
+    }
+  }
 }
 
 // what the file was made from against what its config says now
@@ -115,7 +120,8 @@ std::vector<MadeBy> rules_of(const std::string& folder) {
                                      ""});
   std::vector<MadeBy> rules;
   for (int number = 2; std::getline(file, line); ++number) {
-    const std::size_t colon = line.find(": "), strict = line.find(" $(if $(STRICT)");
+    const std::size_t colon = line.find(": ");
+    const std::size_t strict = line.find(" $(if $(STRICT)");
     const std::size_t program = line.rfind("$(BIN)/langer-");
     if (line.empty() || line[0] == '\t' || colon == std::string::npos ||
         strict == std::string::npos || program == std::string::npos)
@@ -160,20 +166,32 @@ std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
   std::size_t width = 4;
   for (const StepTimes& t : times) width = std::max(width, t.step.size());
   std::string table = fmt::format("{:<{}}  {:<14}  {:>9}  {:>9}  {:>7}\n", "step", width, "state",
-                                  "s", "CPU s", "MB"),
-              failed;
+                                  "s", "CPU s", "MB");
+  std::string failed;
   double cpu = 0;
   std::size_t done = 0, bad = 0, never = 0;
   for (const StepTimes& t : times) {
-    const std::string state = t.log.empty() ? "not run"
-                              : t.exit == 0 ? "done"
-                              : t.exit < 0  ? "not ended"
-                                            : fmt::format("failed, {}", t.exit);
+    std::string state;
+    if (t.log.empty()) {
+      state = "not run";
+    } else if (t.exit == 0) {
+      state = "done";
+    } else if (t.exit < 0) {
+      state = "not ended";
+    } else {
+      state = fmt::format("failed, {}", t.exit);
+    }
     const bool ended = t.exit >= 0;
-    table += ended ? fmt::format("{:<{}}  {:<14}  {:>9.2f}  {:>9.2f}  {:>7.0f}\n", t.step, width,
-                                 state, t.wall, t.cpu, t.MB)
-                   : fmt::format("{:<{}}  {}\n", t.step, width, state);
-    cpu += t.cpu, done += t.exit == 0, never += t.log.empty(), bad += !t.log.empty() && t.exit != 0;
+    if (ended) {
+      table += fmt::format("{:<{}}  {:<14}  {:>9.2f}  {:>9.2f}  {:>7.0f}\n", t.step, width, state,
+                           t.wall, t.cpu, t.MB);
+    } else {
+      table += fmt::format("{:<{}}  {}\n", t.step, width, state);
+    }
+    cpu += t.cpu;
+    done += t.exit == 0;
+    never += t.log.empty();
+    bad += !t.log.empty() && t.exit != 0;
     if (!t.log.empty() && t.exit != 0)
       failed +=
           fmt::format("{}: {}; log: {}\n{}", t.step,
@@ -183,7 +201,8 @@ std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
   const std::string total =
       fmt::format("{} steps: {} done, {} failed or not ended, {} not run; {:.1f} s of CPU\n",
                   times.size(), done, bad, never, cpu);
-  return failed_only ? failed : table + total + failed;
+  if (failed_only) return failed;
+  return table + total + failed;
 }
 
 std::vector<StepReasons> explain(const std::string& folder) {

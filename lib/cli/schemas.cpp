@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/member.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/pipeline_schema.hpp"
@@ -31,7 +32,7 @@ std::string schema_text(const std::string& kind) {
                                     "",
                                     fmt::format("found the kind \"{}\"", kind),
                                     "one of " + list_words(schema_kinds()),
-                                    near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                                    did_you_mean(near)});
 }
 
 std::string schema_file(const std::string& kind) { return kind + ".schema.json"; }

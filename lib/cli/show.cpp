@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/split.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/material/material.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
@@ -23,9 +24,9 @@ namespace {
 
 std::string size_words(std::uintmax_t bytes) {
   const auto b = static_cast<double>(bytes);
-  return b < 1e3   ? fmt::format("{} bytes", bytes)
-         : b < 1e6 ? fmt::format("{:.1f} kB", 1e-3 * b)
-                   : fmt::format("{:.1f} MB", 1e-6 * b);
+  if (b < 1e3) return fmt::format("{} bytes", bytes);
+  if (b < 1e6) return fmt::format("{:.1f} kB", 1e-3 * b);
+  return fmt::format("{:.1f} MB", 1e-6 * b);
 }
 
 // what is said under one heading; long lists go on in the next line
@@ -36,13 +37,17 @@ class Page {
     text += fmt::format("{:<14}{}\n", key, says);
   }
   void list(const std::string& key, const std::vector<std::string>& items) {
-    std::string row, heading = key;
+    std::string row;
+    std::string heading = key;
     for (const std::string& item : items) {
-      if (!row.empty() && row.size() + 2 + item.size() > 90)
-        line(heading, row + ","), heading.clear(), row.clear();
-      row += (row.empty() ? "" : ", ") + item;
+      if (!row.empty() && row.size() + 2 + item.size() > 90) {
+        line(heading, row + ",");
+        heading.clear();
+        row.clear();
+      }
+      append(row, ", ", item);
     }
-    line(heading, row.empty() ? "none" : row);
+    line(heading, text_or(row, "none"));
   }
   void table(const std::string& heading, const std::vector<std::vector<std::string>>& rows) {
     if (rows.empty()) return;
@@ -64,7 +69,8 @@ class Page {
 
 std::string number(double x) { return fmt::format("{:.6g}", x); }
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "-" ? name : name + " [" + unit + "]";
+  if (unit.empty() || unit == "-") return name;
+  return name + " [" + unit + "]";
 }
 
 void show_mesh(Page& page, const Mesh& mesh) {
@@ -81,8 +87,12 @@ void show_mesh(Page& page, const Mesh& mesh) {
                   "{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)],
                   number(mesh.section->depth),
                   mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
-  Vec3 low = Vec3::Constant(INFINITY), high = -low;
-  for (const Vec3& X : mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
+  Vec3 low = Vec3::Constant(INFINITY);
+  Vec3 high = -low;
+  for (const Vec3& X : mesh.X) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+  }
   page.line("box",
             fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]),
                         number(low[1]), number(high[1]), number(low[2]), number(high[2])));
@@ -204,8 +214,7 @@ void show_curves(Page& page, const std::string& path) {
 void show_tree(Page& page, const h5::Group& group, const std::string& prefix) {
   for (const std::string& name : group.datasets()) {
     std::string shape;
-    for (std::size_t n : group.shape(name))
-      shape += (shape.empty() ? "" : ", ") + std::to_string(n);
+    for (std::size_t n : group.shape(name)) append(shape, ", ", std::to_string(n));
     page.line("", fmt::format("{}{} ({}) {}", prefix, name, shape, group.unit(name)));
   }
   for (const std::string& name : group.groups())
@@ -273,7 +282,7 @@ std::string show(const std::string& path) {
   if (root.has("provenance"))
     for (const char* name : {"created_utc", "host", "code_version"})
       if (root.group("provenance").has(name))
-        when += (when.empty() ? "" : ", ") + root.group("provenance").read_text(name);
+        append(when, ", ", root.group("provenance").read_text(name));
   page.line("made by", origin.identity.command.empty() ? "langer-" + origin.identity.stage
                                                        : origin.identity.command);
   if (!when.empty()) page.line("", when);
@@ -294,8 +303,10 @@ std::string show(const std::string& path) {
     show_sweep(page, root);
   else if (origin.schema == sensitivity_schema.name)
     show_sensitivity(page, root);
-  else
-    page.line("datasets", ""), show_tree(page, root, "/");
+  else {
+    page.line("datasets", "");
+    show_tree(page, root, "/");
+  }
   std::vector<std::vector<std::string>> rows;
   for (const Summary& s : read_summary(root)) rows.push_back({s.name, number(s.value), s.unit});
   page.table("summary", rows);

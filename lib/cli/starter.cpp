@@ -8,6 +8,7 @@
 #include "cli/schemas.hpp"
 #include "cli/starter_files.hpp"
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/member.hpp"
 #include "core/hdf5/seal.hpp"
 
@@ -27,12 +28,11 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
   const std::vector<std::string> known = starter_names();
   if (std::find(known.begin(), known.end(), scene) == known.end()) {
     const std::string near = nearest(scene, known);
-    throw Failure(Exit::config,
-                  Error{{},
-                        "",
-                        fmt::format("found the scene \"{}\"", scene),
-                        "one of " + list_words(known),
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+    throw Failure(Exit::config, Error{{},
+                                      "",
+                                      fmt::format("found the scene \"{}\"", scene),
+                                      "one of " + list_words(known),
+                                      did_you_mean(near)});
   }
   std::error_code ec;
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder, ec)))
@@ -54,7 +54,12 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
     if (f.scene != scene && std::string(f.scene) != "common") continue;
     const std::string kind = fs::path(f.name).stem();
     const bool yaml = fs::path(f.name).extension() == ".yaml" && has_schema(kind);
-    const std::string text = yaml ? schema_line(kind, "schema") + f.text : std::string(f.text);
+    std::string text;
+    if (yaml) {
+      text = schema_line(kind, "schema") + f.text;
+    } else {
+      text = std::string(f.text);
+    }
     write_text_file((fs::path(folder) / f.name).string(), text);
     if (yaml)
       write_text_file((fs::path(folder) / "schema" / schema_file(kind)).string(),

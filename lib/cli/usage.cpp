@@ -30,7 +30,8 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
 std::string option_text(const UsageOption& o) {
   std::string s = o.flags;
   if (const std::size_t comma = s.find(','); comma != std::string::npos) s.insert(comma + 1, " ");
-  return o.value.empty() ? s : s + " " + o.value;
+  if (o.value.empty()) return s;
+  return s + " " + o.value;
 }
 
 bool is_place(const UsageOption& o) { return o.flags[0] != '-'; }
@@ -59,7 +60,8 @@ std::vector<UsageOption> common_options() {
 namespace {
 
 std::string dots(const DescribedKey& k) {
-  return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise;
+  if (k.otherwise.empty()) return k.kind;
+  return k.kind + "; " + k.otherwise;
 }
 
 // one line, cut at a word
@@ -130,7 +132,8 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   u.options.push_back(
       {"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
-  u.keys = std::move(keys), u.reference = std::move(reference);
+  u.keys = std::move(keys);
+  u.reference = std::move(reference);
   u.examples = stage_example(stage);
   if (*stage.exports)
     u.examples +=
@@ -184,9 +187,10 @@ std::string help_text(const Usage& u) {
   }
   if (!u.keys.empty()) {
     std::size_t key = 0, kind = 0;
-    for (const DescribedKey& k : u.keys)
-      key = std::max(key, k.key.size()),
+    for (const DescribedKey& k : u.keys) {
+      key = std::max(key, k.key.size());
       kind = std::max(kind, std::min<std::size_t>(44, dots(k).size()));
+    }
     s += "\nKeys of the config, in mm, N, MPa, s and degrees (those below them: --describe):\n";
     for (const DescribedKey& k : u.keys) {
       std::string line = fmt::format("  {:<{}}  {:<{}}  ", k.key, key, dots(k), kind);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/text.hpp"
 #include "mechanics/material/material.hpp"
 
 namespace langer {
@@ -50,8 +51,7 @@ inline std::optional<Polynomial> polynomial(const Material& material) {
 inline std::string matrix_words(const Material& material) {
   std::string words;
   for (const MatrixTerm& term : material.matrix)
-    words += (words.empty() ? "" : " + ") +
-             std::string(std::visit([](const auto& t) { return t.key; }, term));
+    append(words, " + ", std::string(std::visit([](const auto& t) { return t.key); }, term));
   return words;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 
 namespace langer {
 
@@ -79,7 +80,7 @@ void require_closed(const Triangles& surface, const std::string& shown_name) {
         Error{{shown_name},
               "",
               fmt::format("{}; {} with the middle{} {}", found, counted_edges(edges.size()),
-                          edges.size() == 1 ? "" : "s", places(surface, edges)),
+                          plural_s(edges.size()), places(surface, edges)),
               "a closed surface, each of whose edges belongs to two triangles",
               hint});
   };

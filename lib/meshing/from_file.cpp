@@ -13,7 +13,12 @@ namespace {
 
 std::string kind_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
-  std::string kind = dot == std::string::npos ? "" : path.substr(dot + 1);
+  std::string kind;
+  if (dot == std::string::npos) {
+    kind = "";
+  } else {
+    kind = path.substr(dot + 1);
+  }
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return kind;
 }

@@ -45,12 +45,18 @@ namespace {
 // ratio of neighbours so that the outer cells continue with about the length of the last ring's
 double growth_of(const GradedBlock& b, double from, double to) {
   const std::size_t last = b.rings.size() - 1;
-  const double inside = last == 0 ? b.core.half_width : b.rings[last - 1].radius;
+  double inside = 0;
+  if (last == 0) {
+    inside = b.core.half_width;
+  } else {
+    inside = b.rings[last - 1].radius;
+  }
   const double edge = (b.rings[last].radius - inside) / b.rings[last].cells;
   if (edge * b.outer_cells >= to - from) return 1;
   const std::vector<double> lines =
       refined(to - from, b.outer_cells, edge, 0, "geometry.graded_block.outer_cells");
-  return lines.size() < 3 ? 1 : (lines[2] - lines[1]) / (lines[1] - lines[0]);
+  if (lines.size() < 3) return 1;
+  return (lines[2] - lines[1]) / (lines[1] - lines[0]);
 }
 
 // Loops of 4 n points around the core: n from each of its corners, at 45 degrees before +x, +z, -x,
@@ -101,11 +107,20 @@ class PlanMaker {
   // `growth`
   void surround(const Loop& from, const Loop& to, int cells, double growth) {
     double step = 1, whole = 0, part = 0;
-    for (int c = 0; c < cells; ++c) whole += step, step *= growth;
+    for (int c = 0; c < cells; ++c) {
+      whole += step;
+      step *= growth;
+    }
     step = 1;
     for (int c = 0; c < cells; ++c) {
-      part += step, step *= growth;
-      const double v = c + 1 == cells ? 1 : part / whole;
+      part += step;
+      step *= growth;
+      double v = 0;
+      if (c + 1 == cells) {
+        v = 1;
+      } else {
+        v = part / whole;
+      }
       std::vector<int> outer;
       for (std::size_t p = 0; p < from.size(); ++p)
         outer.push_back(
@@ -131,7 +146,9 @@ class PlanMaker {
 };
 
 Plan plan_of(const GradedBlock& b) {
-  const double half_x = 0.5 * b.size[0], half_z = 0.5 * b.size[2], h = b.core.half_width;
+  const double half_x = 0.5 * b.size[0];
+  const double half_z = 0.5 * b.size[2];
+  const double h = b.core.half_width;
   const int n = b.core.cells;
   PlanMaker maker(b);
   maker.core(n, h);
@@ -147,9 +164,12 @@ Plan plan_of(const GradedBlock& b) {
 }
 
 std::vector<double> layer_heights(const GradedBlock& b) {
-  const double low = b.origin[1], high = low + b.size[1];
-  return b.top ? lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge")
-               : even_lines(low, high, b.layers);
+  const double low = b.origin[1];
+  const double high = low + b.size[1];
+  if (b.top) {
+    return lines_to_top(low, high, b.layers, b.top->edge, "geometry.graded_block.top.edge");
+  }
+  return even_lines(low, high, b.layers);
 }
 
 }  // namespace

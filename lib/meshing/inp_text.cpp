@@ -18,7 +18,8 @@ std::string quoted_name(const std::string& name) {
                                       "the name \"" + name + "\" cannot stand in an .inp file",
                                       "names without , \" * and =",
                                       ""});
-  return name.find(' ') == std::string::npos ? name : "\"" + name + "\"";
+  if (name.find(' ') == std::string::npos) return name;
+  return "\"" + name + "\"";
 }
 
 }  // namespace

@@ -98,9 +98,13 @@ void add_entities(std::string& s, const MshParts& parts) {
 void add_elements(std::string& s, const Mesh& mesh, const MshParts& parts) {
   const auto out = std::back_inserter(s);
   const auto n_cells = static_cast<std::size_t>(mesh.n_cells());
-  std::size_t n_parts = parts.volumes.size(), n_elements = n_cells;
+  std::size_t n_parts = parts.volumes.size();
+  std::size_t n_elements = n_cells;
   for (const auto& of_one_dimension : parts.all)
-    for (const auto& [sets, part] : of_one_dimension) ++n_parts, n_elements += part.elements.size();
+    for (const auto& [sets, part] : of_one_dimension) {
+      ++n_parts;
+      n_elements += part.elements.size();
+    }
   fmt::format_to(out, "$Elements\n{} {} 1 {}\n", n_parts, n_elements, n_elements);
   std::size_t next = n_cells;
   for (const auto& [dim, type] :

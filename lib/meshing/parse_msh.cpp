@@ -365,7 +365,12 @@ class MshParser {
   }
 
   void add_to_model(const MshType& type, std::size_t element, const std::vector<int>& groups) {
-    const int line = in_.is_binary ? 0 : in_.line();
+    int line = 0;
+    if (in_.is_binary) {
+      line = 0;
+    } else {
+      line = in_.line();
+    }
     if (type.dim == 3) add_element(model_.cells, type, element, nodes_of_element_, line);
     for (const int tag : groups) {
       MshGroup& of = group(type.dim, tag);

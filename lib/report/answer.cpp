@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/text.hpp"
 #include "core/config/tree.hpp"
 #include "core/config/writer.hpp"
 #include "scene/run/post_files.hpp"
@@ -32,7 +33,7 @@ std::string flat(const Tree& tree) {
   for (const auto& [key, value] : tree.map) {
     if (value.kind == Tree::Kind::null) continue;
     const bool deep = value.kind == Tree::Kind::map;
-    text += (text.empty() ? "" : ", ") + key + (deep ? ": " : " ") + flat(value);
+    append(text, ", ", key + (deep ? ": " : " ") + flat(value));
   }
   return text;
 }
@@ -47,15 +48,20 @@ std::string along(const Vec3& u) {
 }
 
 std::string size_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& x : mesh.X) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  Vec3 low = mesh.X[0];
+  Vec3 high = mesh.X[0];
+  for (const Vec3& x : mesh.X) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
   const Vec3 size = high - low;
-  if (mesh.section && mesh.section->of == SectionOf::axisymmetric)
-    return low[0] > 0
-               ? fmt::format("revolution, {:.4g} to {:.4g} mm from its axis and {:.4g} mm high",
-                             low[0], high[0], size[1])
-               : fmt::format("revolution, {:.4g} mm in radius and {:.4g} mm high", high[0],
-                             size[1]);
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric) {
+    if (low[0] > 0) {
+      return fmt::format("revolution, {:.4g} to {:.4g} mm from its axis and {:.4g} mm high", low[0],
+                         high[0], size[1]);
+    }
+    return fmt::format("revolution, {:.4g} mm in radius and {:.4g} mm high", high[0], size[1]);
+  }
   return fmt::format("{:.4g} × {:.4g} × {:.4g} mm", size[0], size[1], size[2]);
 }
 
@@ -83,13 +89,15 @@ Reached deepest(const SolutionReader& solution) {
 // with its sign: positive where the body resists the travel
 double resisting(const StepRecord& step) {
   const double travel = step.u_ind.norm();
-  return travel > 0 ? -step.force_ind.dot(step.u_ind) / travel : step.force_ind.norm();
+  if (travel > 0) return -step.force_ind.dot(step.u_ind) / travel;
+  return step.force_ind.norm();
 }
 
 std::string with_error(double force, const KnownError& error) {
-  return std::isfinite(error.percent)
-             ? fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent)
-             : fmt::format("{:.4g}\u00a0N", force);
+  if (std::isfinite(error.percent)) {
+    return fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent);
+  }
+  return fmt::format("{:.4g}\u00a0N", force);
 }
 
 void tell_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {
@@ -191,8 +199,10 @@ Answer answer_of(const SolutionReader& solution, const std::string& label) {
   if (!label.empty()) answer.sentence = label + ": " + answer.sentence;
   const std::vector<Material> laws = header.laws();
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const std::string of =
-        laws.size() > 1 && i < header.mesh.bodies.size() ? " of " + header.mesh.bodies[i] : "";
+    std::string of;
+    if (laws.size() > 1 && i < header.mesh.bodies.size()) {
+      of = " of " + header.mesh.bodies[i];
+    }
     for (const auto& [part, value] : to_tree(laws[i]).map)
       if (const std::string text = flat(value); !text.empty())
         answer.facts.push_back({part + of, text});

@@ -32,7 +32,8 @@ std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const
   std::vector<ShownField> fields;
   for (const Quantity q : quantities) {
     const QuantityLine& line = line_of(q);
-    const int n = line.needs.fibres ? body.n_families() : 1;
+    int n = 1;
+    if (line.needs.fibres) n = body.n_families();
     for (int k = 0; k < n; ++k)
       fields.push_back({q,
                         k,
@@ -260,8 +261,12 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
       here.insert(here.end(), state.u[node].begin(), state.u[node].end());
     const GaussValues gauss = gauss_values(body, state.u);
     for (ShownField& f : fields) f.values.emplace_back();
-    const std::vector<ContactNode> contact =
-        touched ? contacts.nodes(row, record, contacts.knows_slip()) : std::vector<ContactNode>();
+    std::vector<ContactNode> contact;
+    if (touched) {
+      contact = contacts.nodes(row, record, contacts.knows_slip());
+    } else {
+      contact = std::vector<ContactNode>();
+    }
     for (const int node : chosen.nodes) {
       const VecX values = node_values(body, node, gauss, stress);
       for (ShownField& f : fields) {
@@ -306,7 +311,8 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   double largest = 0;
   for (const auto& state : at.u)
     for (double v : state) largest = std::max(largest, std::abs(v));
-  const double step = largest > 0 ? largest / 32767 : 1;
+  double step = 1;
+  if (largest > 0) step = largest / 32767;
   std::vector<float> X;
   for (const int node : chosen.nodes)
     for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));

@@ -19,7 +19,8 @@ std::string stem(const std::string& name) {
       !place.empty() && std::all_of(place.begin(), place.end(), [](unsigned char c) {
         return std::isupper(c) || std::isdigit(c);
       });
-  return is_place ? name.substr(0, cut) : name;
+  if (is_place) return name.substr(0, cut);
+  return name;
 }
 
 }  // namespace
@@ -51,7 +52,8 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources) {
     std::stable_sort(sorted.begin(), sorted.end(),
                      [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
     for (const NamedCurve* c : sorted) {
-      const std::string title = sources.size() == 1 ? stem(c->name) : c->name;
+      std::string title = c->name;
+      if (sources.size() == 1) title = stem(c->name);
       auto [it, is_new] = charts.try_emplace(title);
       Chart& chart = it->second;
       if (is_new) {

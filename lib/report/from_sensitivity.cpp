@@ -26,8 +26,13 @@ void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
     for (const Matrix& matrix : matrices) {
       const std::string path = matrix.name;
       const auto cut = path.find('/');
-      const std::string folder = cut == std::string::npos ? "" : path.substr(0, cut),
-                        name = path.substr(cut + 1);
+      std::string folder;
+      if (cut == std::string::npos) {
+        folder = "";
+      } else {
+        folder = path.substr(0, cut);
+      }
+      const std::string name = path.substr(cut + 1);
       if (!folder.empty() && !file.root().has(folder)) continue;
       const h5::Group group = folder.empty() ? file.root() : file.root().group(folder);
       if (!group.has(name)) continue;

@@ -16,7 +16,10 @@ struct Axis {
   std::string name, unit;
   std::vector<double> numbers;
   std::vector<std::string> words;  // where they are no numbers
-  Cell at(std::size_t i) const { return words.empty() ? Cell(numbers[i]) : Cell(words[i]); }
+  Cell at(std::size_t i) const {
+    if (words.empty()) return Cell(numbers[i]);
+    return Cell(words[i]);
+  }
 };
 
 Axis read_axis(const h5::Group& group, const std::string& name) {
@@ -102,13 +105,15 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
                     {}};
   for (const std::string& name : spread.groups()) {
     const h5::Group one = spread.group(name);
-    const double mean = one.read_scalar("mean"), deviation = one.read_scalar("deviation");
+    const double mean = one.read_scalar("mean");
+    const double deviation = one.read_scalar("deviation");
     const std::vector<double> interval = one.read<double>("interval", {1, 2}).values;
     const std::vector<double> without = one.read<double>("without", {h5::any}).values;
     std::istringstream order(one.text_attribute("order"));
     std::string most;
     order >> most;  // the one that would help most stands first
-    const double left = without.empty() ? std::nan("") : without[0];
+    double left = without[0];
+    if (without.empty()) left = std::nan("");
     table.rows.push_back(
         {name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
     if (std::isfinite(deviation) && mean != 0 && !most.empty())
@@ -126,7 +131,8 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
     const auto values = [&](const char* of) {
       return one.read<double>(of, {h5::any}).values;
     };
-    const std::string x = one.text_attribute("x"), y = one.text_attribute("y");
+    const std::string x = one.text_attribute("x");
+    const std::string y = one.text_attribute("y");
     Series mean{"mean of the samples, ± one standard deviation", values("x"), values("mean")};
     mean.error = values("deviation");
     page.charts.push_back({"sweep",
@@ -146,7 +152,8 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const h5::File file = h5::File::open(source.path);
     read_identity(file.root(), sweep_schema);
-    const h5::Group axis_group = file.root().group("axis"), values = file.root().group("values");
+    const h5::Group axis_group = file.root().group("axis");
+    const h5::Group values = file.root().group("values");
     std::vector<Axis> axes;
     for (const std::string& name : axis_group.datasets())
       axes.push_back(read_axis(axis_group, name));
@@ -174,9 +181,10 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(column[i]);
       const bool whole =
           std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); });
-      if (along && whole)
-        columns.push_back({name, along->numbers, column, false}),
-            units.push_back(values.unit(name));
+      if (along && whole) {
+        columns.push_back({name, along->numbers, column, false});
+        units.push_back(values.unit(name));
+      }
     }
     page.tables.push_back(std::move(table));
     add_spread(page, source, file.root());

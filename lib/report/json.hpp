@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/quoted.hpp"
+#include "core/base/text.hpp"
 
 namespace langer::report {
 
@@ -25,15 +26,14 @@ inline Json words(const std::string& s) { return {quoted(s, "<")}; }
 // each item of a range by a function that makes it a Json
 Json list(const auto& range, auto&& each) {
   std::string text;
-  for (const auto& item : range) text += (text.empty() ? "" : ",") + each(item).text;
+  for (const auto& item : range) append(text, ",", each(item).text);
   return {"[" + text + "]"};
 }
 inline Json numbers(const std::vector<double>& values) { return list(values, number); }
 
 inline Json object(const std::vector<std::pair<const char*, Json>>& parts) {
   std::string text;
-  for (const auto& [key, value] : parts)
-    text += (text.empty() ? "" : ",") + words(key).text + ":" + value.text;
+  for (const auto& [key, value] : parts) append(text, ",", words(key).text + ":" + value.text);
   return {"{" + text + "}"};
 }
 

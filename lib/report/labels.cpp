@@ -23,11 +23,17 @@ std::string in_words(const std::string& column) {
     const std::string_view word = line.word;
     const bool begins =
         column.starts_with(word) && (column.size() == word.size() || column[word.size()] == '_');
-    if (begins && word.size() > length) best = &line, length = word.size();
+    if (begins && word.size() > length) {
+      best = &line;
+      length = word.size();
+    }
   }
   std::string rest = column.substr(length);
-  if (best && length == 1 && !rest.empty())
-    best = nullptr, rest = column;  // t_half is no path parameter
+  if (best && length == 1 && !rest.empty()) {
+    // t_half is no path parameter
+    best = nullptr;
+    rest = column;
+  }
   std::replace(rest.begin(), rest.end(), '_', ' ');
   if (!best) return rest;
   return plain_label(best->label) + (rest.empty() ? "" : "," + rest);

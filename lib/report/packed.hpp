@@ -21,7 +21,8 @@ inline std::string base64(const void* data, std::size_t n) {
   for (std::size_t i = 0; i < n; i += 3) {
     const unsigned b =
         bytes[i] << 16 | (i + 1 < n ? bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
-    text += digits[b >> 18], text += digits[b >> 12 & 63];
+    text += digits[b >> 18];
+    text += digits[b >> 12 & 63];
     text += i + 1 < n ? digits[b >> 6 & 63] : '=', text += i + 2 < n ? digits[b & 63] : '=';
   }
   return text;
@@ -37,14 +38,18 @@ struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void add(std::span<const double> values) {
     for (double v : values)
-      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+      if (std::isfinite(v)) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
   }
   bool empty() const { return !(low <= high); }
 };
 
 // 0 ... 65534 from low to high; 65535 is not a number
 inline std::vector<std::uint16_t> quantised(std::span<const double> values, const Span& span) {
-  const double per = span.high > span.low ? 65534 / (span.high - span.low) : 0;
+  double per = 0;
+  if (span.high > span.low) per = 65534 / (span.high - span.low);
   std::vector<std::uint16_t> packed;
   for (double v : values)
     packed.push_back(std::isfinite(v) ? static_cast<std::uint16_t>((v - span.low) * per + 0.5)

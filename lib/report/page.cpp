@@ -9,7 +9,9 @@ namespace langer::report {
 namespace {
 
 const char* level_word(Level level) {
-  return level == Level::good ? "good" : level == Level::note ? "note" : "warning";
+  if (level == Level::good) return "good";
+  if (level == Level::note) return "note";
+  return "warning";
 }
 
 Json series(const Series& s) {
@@ -127,7 +129,8 @@ std::size_t bytes_without_data() {
 
 std::string html(const ReportPage& page) {
   using namespace embedded;
-  const std::string data = data_of(page).text, title = xml_text(page.title);
+  const std::string data = data_of(page).text;
+  const std::string title = xml_text(page.title);
   const bool view = has_three() && !page.bodies.empty();
   const std::pair<std::string_view, std::string_view> parts[] = {{"title", title},
                                                                  {"style", style_css},

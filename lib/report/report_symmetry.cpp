@@ -25,7 +25,11 @@ std::optional<SymmetryResidual> compared(std::string says, const std::vector<dou
       ++residual.pairs;
     }
   if (residual.pairs == 0) return {};
-  residual.value = scale > 0 ? largest / scale : 0;
+  if (scale > 0) {
+    residual.value = largest / scale;
+  } else {
+    residual.value = 0;
+  }
   return residual;
 }
 

@@ -25,7 +25,8 @@ std::string in_words(const std::string& folder, Source& source) {
   std::string value = folder.substr(cut + 1);
   double x = 0;
   if (is_number(value, x)) {
-    source.angle = x, source.numbered = true;
+    source.angle = x;
+    source.numbered = true;
     return fmt::format("{} = {:g}", folder.substr(0, cut), x);
   }
   const auto first = folder.find('_');
@@ -59,9 +60,13 @@ std::vector<Source> labelled(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     Source source{paths[i], "", 0, false};
     const auto& f = folders[i];
-    if (paths.size() == 1)
-      source.label = f.empty() ? fs::path(paths[i]).stem().string() : f.back();
-    else
+    if (paths.size() == 1) {
+      if (f.empty()) {
+        source.label = fs::path(paths[i]).stem().string();
+      } else {
+        source.label = f.back();
+      }
+    } else
       for (std::size_t k = front; k + back < f.size(); ++k)
         source.label += (k > front ? ", " : "") + in_words(f[k], source);
     if (source.label.empty())
@@ -108,10 +113,15 @@ void add_origin(ReportPage& page, const Source& source) {
     const auto text = [&](const char* name) {
       return p.has(name) ? p.read_text(name) : std::string();
     };
-    o.made = text("created_utc"), o.host = text("host"), o.version = text("code_version"),
+    o.made = text("created_utc");
+    o.host = text("host");
+    o.version = text("code_version");
     o.libraries = text("libraries");
   }
-  if (origin.cost) o.wall = origin.cost->wall, o.cpu = origin.cost->cpu;
+  if (origin.cost) {
+    o.wall = origin.cost->wall;
+    o.cpu = origin.cost->cpu;
+  }
   page.origins.push_back(std::move(o));
 }
 

@@ -30,9 +30,9 @@ ContactWatch::ContactWatch(const Mesh& mesh, const Scene& scene, Where where)
   const std::vector<Vec3> rest(mesh.X.size(), Vec3::Zero());
   for (const RigidContact& contact : scene.contacts) {
     const SurfaceLook look = check_.look(contact, rest, Vec3::Zero());
-    const std::string key = "contacts." + contact.name + ".rigid",
-                      outside = "a start outside the body or touching it",
-                      hint = "the indenter moves in from there by `motion`";
+    const std::string key = "contacts." + contact.name + ".rigid";
+    const std::string outside = "a start outside the body or touching it";
+    const std::string hint = "the indenter moves in from there by `motion`";
     if (look.swallowed) refuse(key, "starts wholly inside the body", outside, hint);
     if (look.node.depth > tiny)
       refuse(
@@ -56,13 +56,14 @@ void ContactWatch::refuse(const std::string& key, std::string found, std::string
 
 double ContactWatch::Found::share() const {
   const double depth = at_force.facet.depth;
-  return depth > tiny ? depth / std::max(at_force.pressed, depth) : 0;
+  if (depth > tiny) return depth / std::max(at_force.pressed, depth);
+  return 0;
 }
 
 void ContactWatch::refuse_mid_path(const RigidContact& contact, const SurfaceLook& look,
                                    double t) const {
-  const std::string key = "contacts." + contact.name,
-                    when = fmt::format("at t = {:.4g} the indenter is ", t);
+  const std::string key = "contacts." + contact.name;
+  const std::string when = fmt::format("at t = {:.4g} the indenter is ", t);
   if (look.swallowed)
     refuse(key + ".rigid", when + "wholly inside the body and touches no node",
            "an indenter that the body's surface stops",
@@ -116,10 +117,16 @@ void ContactWatch::keep(std::size_t contact, const SurfaceLook& look, double t, 
   Found& f = found_[contact];
   if (look.node.depth > std::max(f.node.depth, tiny)) f.node = look.node;
   if (look.facet.depth > std::max(f.facet.depth, tiny)) f.facet = look.facet;
-  if (look.distance < f.distance)
-    f.distance = look.distance, f.nearest = look.nearest, f.t_nearest = t;
+  if (look.distance < f.distance) {
+    f.distance = look.distance;
+    f.nearest = look.nearest;
+    f.t_nearest = t;
+  }
   f.touched = f.touched || look.touching > 0;
-  if (force >= f.force) f.force = force, f.at_force = look;
+  if (force >= f.force) {
+    f.force = force;
+    f.at_force = look;
+  }
 }
 
 void ContactWatch::look(StepRecord& record) {
@@ -133,14 +140,19 @@ void ContactWatch::look(StepRecord& record) {
     Found& before = found_[k];
     const bool away = look.touching == 0;
     if (away && before.away) refuse_jump(contact, record.u, before.c, c, record.t);
-    before.c = c, before.away = away;
+    before.c = c;
+    before.away = away;
     Vec3 force = record.force_ind;  // on the indenter
     if (scene_.contacts.size() > 1) {
       for (int j = 0; j < 3; ++j)
         force[j] = record.scalars.at("force_" + contact.name + "_" + "xyz"[j]);
-      if (adds_)
-        record.scalars["force_" + contact.name] =
-            c.norm() > 0 ? -force.dot(c) / c.norm() : force.norm();
+      if (adds_) {
+        if (c.norm() > 0) {
+          record.scalars["force_" + contact.name] = -force.dot(c) / c.norm();
+        } else {
+          record.scalars["force_" + contact.name] = force.norm();
+        }
+      }
     }
     keep(k, look, record.t, force.norm());
     const std::vector<double>& beta =
@@ -163,8 +175,8 @@ void ContactWatch::kept(const StepRecord& step) {
 void ContactWatch::finish() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
-    const std::string key = "contacts." + scene_.contacts[k].name + ".rigid",
-                      apart = fmt::format("{:.3g}", 2 * f.at_force.spacing);
+    const std::string key = "contacts." + scene_.contacts[k].name + ".rigid";
+    const std::string apart = fmt::format("{:.3g}", 2 * f.at_force.spacing);
     if (!f.touched && f.facet.depth > 1e-6 * f.at_force.spacing)
       refuse(
           key,
@@ -228,8 +240,10 @@ std::vector<std::string> ContactWatch::warnings() const {
 
 std::vector<Summary> ContactWatch::summary() const {
   double share = 0, deepest = 0;
-  for (const Found& f : found_)
-    share = std::max(share, f.share()), deepest = std::max(deepest, f.facet.depth);
+  for (const Found& f : found_) {
+    share = std::max(share, f.share());
+    deepest = std::max(deepest, f.facet.depth);
+  }
   return {{"contact_warnings", static_cast<double>(warnings().size()), "-"},
           {"penetration_between_nodes", deepest, "mm"},
           {"penetration_share", share, "-"}};

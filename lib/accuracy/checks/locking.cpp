@@ -21,14 +21,16 @@ CellSums sums(const Assembler& body, const VecX& u, int e) {
   const ElementGeometry& geometry = body.geometry(e);
   const ElementNodes q = body.element_displacements(u, e);
   const int n = geometry.n_gauss();
-  const bool modal = !geometry.mode.empty(),
-             too_soft = body.formulation() == Formulation::mean_dilatation;
+  const bool modal = !geometry.mode.empty();
+  const bool too_soft = body.formulation() == Formulation::mean_dilatation;
   CellSums out;
   std::vector<double> J_minus_1(n);
   std::array<double, n_modes> t{};
   for (int g = 0; g < n; ++g) {
-    const Mat3 H = displacement_gradient(q, geometry.dN_dX[g]), F = Mat3::Identity() + H;
-    const double w = geometry.w[g], x = J_minus_1[g] = volume_change(H);
+    const Mat3 H = displacement_gradient(q, geometry.dN_dX[g]);
+    const Mat3 F = Mat3::Identity() + H;
+    const double w = geometry.w[g];
+    const double x = J_minus_1[g] = volume_change(H);
     for (int k = 0; k < (modal ? n_modes : 1); ++k)
       t[k] += w * x * (k == 0 ? 1 : geometry.mode[g][k]) / geometry.V;
     const Mat3 C = F.transpose() * F;
@@ -39,7 +41,12 @@ CellSums sums(const Assembler& body, const VecX& u, int e) {
     double of_modes = 0;
     for (int k = too_soft ? 1 : 0; k < (modal ? n_modes : 1); ++k)
       of_modes += t[k] * (k == 0 ? 1 : geometry.mode[g][k]);
-    const double theta = too_soft ? of_modes : J_minus_1[g] - of_modes;
+    double theta = 0;
+    if (too_soft) {
+      theta = of_modes;
+    } else {
+      theta = J_minus_1[g] - of_modes;
+    }
     out.theta2 += geometry.w[g] * theta * theta;
   }
   return out;
@@ -59,14 +66,22 @@ Locking locking(const Assembler& body, const VecX& u) {
   double stored = 0, by_pressure = 0, missing = 0, most = 0;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const CellSums cell = sums(body, u, e);
-    const double kappa = bulk_modulus(body.material(e)),
-                 at_rest = std::abs(shear_modulus(body.material(e)));
+    const double kappa = bulk_modulus(body.material(e));
+    const double at_rest = std::abs(shear_modulus(body.material(e)));
     const double mu =
         std::max(cell.I1 > 1e-9 * body.geometry(e).V ? 2 * cell.W / cell.I1 : 0, at_rest);
-    const double phi = 0.5 * kappa * cell.theta2, pressure = phi * kappa / (by_shear_if_stiff * mu);
+    const double phi = 0.5 * kappa * cell.theta2;
+    const double pressure = phi * kappa / (by_shear_if_stiff * mu);
     const double soft = 0.5 * cell.theta2 / (1 / kappa + 1 / (by_shear_if_soft * mu));
-    stored += phi, by_pressure += pressure, missing += soft;
-    const double here = too_soft ? soft : phi + pressure;
+    stored += phi;
+    by_pressure += pressure;
+    missing += soft;
+    double here = 0;
+    if (too_soft) {
+      here = soft;
+    } else {
+      here = phi + pressure;
+    }
     if (here <= most) continue;
     most = here;
     out.place.setZero();
@@ -74,8 +89,11 @@ Locking locking(const Assembler& body, const VecX& u) {
       out.place += body.mesh().X[a] / static_cast<double>(body.mesh().cell(e).size());
   }
   if (!(out.energy > 0) || most == 0) return out;
-  out.share = too_soft ? -missing / (out.energy + missing)
-                       : stored / std::max(out.energy - stored, 1e-300) + by_pressure / out.energy;
+  if (too_soft) {
+    out.share = -missing / (out.energy + missing);
+  } else {
+    out.share = stored / std::max(out.energy - stored, 1e-300) + by_pressure / out.energy;
+  }
   return out;
 }
 

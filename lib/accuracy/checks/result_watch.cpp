@@ -44,10 +44,14 @@ ResultWatch::ResultWatch(const Assembler& body)
 }
 
 void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
-  t_ = t, residual_ = report.residual;
-  reactions_ = std::max(reactions_, report.reference), asked_ = std::max(asked_, report.asked);
-  if (report.tolerance > report.asked && report.tolerance > raised_)
-    raised_ = report.tolerance, raised_at_ = t;
+  t_ = t;
+  residual_ = report.residual;
+  reactions_ = std::max(reactions_, report.reference);
+  asked_ = std::max(asked_, report.asked);
+  if (report.tolerance > report.asked && report.tolerance > raised_) {
+    raised_ = report.tolerance;
+    raised_at_ = t;
+  }
   if (may_lock_)
     if (const Locking now = locking(body_, u); now.energy > locking_.energy) locking_ = now;
   if (has_chains_) look_at_chains(u);
@@ -68,9 +72,16 @@ void ResultWatch::look_at_branches() {
       const double work = points.work(e, g);
       if (!(work < little)) continue;
       given += body_.geometry(e).w[g] / volume;
-      if (work < worst) worst = work, place = gauss_position(body_.mesh(), e, g);
+      if (work < worst) {
+        worst = work;
+        place = gauss_position(body_.mesh(), e, g);
+      }
     }
-  if (given > given_) given_ = given, given_at_ = t_, given_place_ = place;
+  if (given > given_) {
+    given_ = given;
+    given_at_ = t_;
+    given_place_ = place;
+  }
 }
 
 void ResultWatch::look_at_chains(const VecX& u) {
@@ -85,7 +96,8 @@ void ResultWatch::look_at_chains(const VecX& u) {
       if (stretch <= law->locking_stretch ||
           stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300))
         continue;
-      chains_ = stretch, locking_stretch_ = law->locking_stretch,
+      chains_ = stretch;
+      locking_stretch_ = law->locking_stretch;
       chains_place_ = gauss_position(body_.mesh(), e, g);
     }
   }
@@ -116,7 +128,8 @@ std::string ResultWatch::soft_enough() const {
   const auto* law = std::get_if<QuadraticVolume>(&stiffest_);
   const double d =
       rounded_up((law ? law->d : 2 / bulk_modulus(stiffest_)) * raised_ / std::max(asked_, 1e-300));
-  return law ? fmt::format("d: {:.0e}", d) : fmt::format("bulk_modulus: {:.0e}", 2 / d);
+  if (law) return fmt::format("d: {:.0e}", d);
+  return fmt::format("bulk_modulus: {:.0e}", 2 / d);
 }
 
 std::vector<std::string> ResultWatch::warnings() const {

@@ -35,7 +35,8 @@ std::vector<double> parts_of(const std::vector<double>& of_cell, double smooth,
 
 double with_a_corner_inside(const Mesh& mesh) {
   std::vector<char> outside(mesh.X.size(), 0);
-  const int front = mesh.section ? n_front(mesh) : 0;
+  int front = 0;
+  if (mesh.section) front = n_front(mesh);
   for (const Facet& facet : boundary(mesh)) {
     const std::vector<int> nodes = facet_nodes(mesh, facet);
     const auto in_front =

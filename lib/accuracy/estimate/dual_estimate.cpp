@@ -106,7 +106,8 @@ class Questions {
       reaction += last_.reaction[static_cast<std::size_t>(n)];
     if (!(reaction.norm() > 0)) return std::nullopt;
     const Dofs& dofs = run_.body.dofs();
-    asked.by.prescribed = VecX::Zero(dofs.n), asked.of_set = true;
+    asked.by.prescribed = VecX::Zero(dofs.n);
+    asked.of_set = true;
     for (int n : run_.mesh.node_sets.at(set)) {
       const auto found = place_.find(key(n));
       if (found == place_.end()) continue;
@@ -160,7 +161,8 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked,
   const auto& contacts = run.reduction.scene().contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     ContactRecord& contact = record.contacts[contacts[k].name];
-    contact.r = part.r[k], contact.status.assign(part.r[k].size(), 0),
+    contact.r = part.r[k];
+    contact.status.assign(part.r[k].size(), 0);
     contact.gap.assign(part.r[k].size(), 0);
     for (char axis : {'x', 'y', 'z'}) record.scalars["force_" + contacts[k].name + "_" + axis] = 0;
   }
@@ -206,8 +208,12 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   PathErrors out;
   const bool quadratic = run.mesh.cell().second_order();
   const std::vector<StepForces> end{step_forces(config, run.scene, run.mesh, last)};
-  const std::vector<Valued> judged =
-      asks_for_accuracy(config) ? forces_judged(found) : std::vector<Valued>();
+  std::vector<Valued> judged;
+  if (asks_for_accuracy(config)) {
+    judged = forces_judged(found);
+  } else {
+    judged = std::vector<Valued>();
+  }
   double worst = 0;
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const Valued& q = found[asked[k].quantity];

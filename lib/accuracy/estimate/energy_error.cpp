@@ -22,7 +22,8 @@ constexpr double small_strain = 1e-4;  // of the change along a dual solution
 
 Mat3 cofactor(const Mat3& F) {
   Mat3 cof;
-  cof.col(0) = F.col(1).cross(F.col(2)), cof.col(1) = F.col(2).cross(F.col(0)),
+  cof.col(0) = F.col(1).cross(F.col(2));
+  cof.col(1) = F.col(2).cross(F.col(0));
   cof.col(2) = F.col(0).cross(F.col(1));
   return cof;
 }
@@ -47,8 +48,8 @@ class ErrorOfCells {
         patches_(body),
         state_(state),
         duals_(duals) {
-    const auto n = static_cast<Eigen::Index>(mesh_.X.size()),
-               fields = static_cast<Eigen::Index>(1 + duals.size());
+    const auto n = static_cast<Eigen::Index>(mesh_.X.size());
+    const auto fields = static_cast<Eigen::Index>(1 + duals.size());
     MatX u(n, 3 * fields);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index k = 0; k < fields; ++k)
@@ -75,7 +76,8 @@ class ErrorOfCells {
 
   // of each dual solution, at each Gauss point: derivative of the error's energy
   std::vector<PointError> at(int e, int g, double share) const {
-    const MatX gradients = u_.gradients(e, g), p = p_.values(e, g);
+    const MatX gradients = u_.gradients(e, g);
+    const MatX p = p_.values(e, g);
     const auto fields = [&](std::size_t k) {
       PointFields f;
       f.H = displacement_gradient(
@@ -89,18 +91,25 @@ class ErrorOfCells {
         f.smooth_H = smooth;
       f.smooth_p = p(static_cast<Eigen::Index>(k), 0);
       for (int m = 0; m < n_modes_; ++m) {
-        const double shape = m == 0 ? 1 : body_.geometry(e).mode[g][m];
-        f.p += shape * modes_[e](m, 2 * static_cast<Eigen::Index>(k)),
-            f.theta += shape * modes_[e](m, 2 * static_cast<Eigen::Index>(k) + 1);
+        double shape = 0;
+        if (m == 0) {
+          shape = 1;
+        } else {
+          shape = body_.geometry(e).mode[g][m];
+        }
+        f.p += shape * modes_[e](m, 2 * static_cast<Eigen::Index>(k));
+        f.theta += shape * modes_[e](m, 2 * static_cast<Eigen::Index>(k) + 1);
       }
       return f;
     };
     const PointFields state = fields(0);
     std::vector<PointError> out;
     for (std::size_t k = 0; k < duals_.size(); ++k) {
-      const double eps = step(k), w = share * body_.geometry(e).w[g] / (2 * eps);
+      const double eps = step(k);
+      const double w = share * body_.geometry(e).w[g] / (2 * eps);
       const PointFields change = fields(k + 1);
-      const PointError plus = error(e, state, change, eps), minus = error(e, state, change, -eps);
+      const PointError plus = error(e, state, change, eps);
+      const PointError minus = error(e, state, change, -eps);
       out.push_back({w * (plus.shape - minus.shape), w * (plus.volume - minus.volume)});
     }
     return out;
@@ -108,7 +117,8 @@ class ErrorOfCells {
 
  private:
   const std::vector<Vec3>& nodal(Eigen::Index field) const {
-    return field == 0 ? state_.u : duals_[static_cast<std::size_t>(field - 1)].u;
+    if (field == 0) return state_.u;
+    return duals_[static_cast<std::size_t>(field - 1)].u;
   }
   // (modes, 2 fields): pressure and dilatation of each
   MatX modes(int e) const {
@@ -123,10 +133,14 @@ class ErrorOfCells {
       const ElementNodes z = element_displacements(mesh_, nodal(k), e);
       for (int g = 0; g < geometry.n_gauss(); ++g) {
         const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
-        const double J = k == 0 ? volume_change(H)
-                                : cofactor(Mat3::Identity() + H)
-                                      .cwiseProduct(displacement_gradient(z, geometry.dN_dX[g]))
-                                      .sum();
+        double J = 0;
+        if (k == 0) {
+          J = volume_change(H);
+        } else {
+          J = cofactor(Mat3::Identity() + H)
+                  .cwiseProduct(displacement_gradient(z, geometry.dN_dX[g]))
+                  .sum();
+        }
         for (int m = 0; m < n; ++m)
           dt[m] += geometry.w[g] * (m == 0 ? 1 : geometry.mode[g][m]) * J / geometry.V;
       }
@@ -139,7 +153,10 @@ class ErrorOfCells {
                             dp.data());
         for (int m = 0; m < n; ++m) dp[m] -= p[m];
       }
-      for (int m = 0; m < n; ++m) out(m, 2 * k) = dp[m], out(m, 2 * k + 1) = dt[m];
+      for (int m = 0; m < n; ++m) {
+        out(m, 2 * k) = dp[m];
+        out(m, 2 * k + 1) = dt[m];
+      }
     }
     return out;
   }
@@ -165,16 +182,18 @@ class ErrorOfCells {
   }
 
   PointError error(int e, const PointFields& s, const PointFields& d, double eps) const {
-    const Mat3 H = s.H + eps * d.H, smooth_H = s.smooth_H + eps * d.smooth_H;
-    const double p = s.p + eps * d.p, smooth_p = s.smooth_p + eps * d.smooth_p,
-                 theta = s.theta + eps * d.theta;
-    const double J = 1 + volume_change(H),
-                 smooth_theta = theta + (smooth_p - p) / bulk_modulus(body_.material(e));
+    const Mat3 H = s.H + eps * d.H;
+    const Mat3 smooth_H = s.smooth_H + eps * d.smooth_H;
+    const double p = s.p + eps * d.p;
+    const double smooth_p = s.smooth_p + eps * d.smooth_p;
+    const double theta = s.theta + eps * d.theta;
+    const double J = 1 + volume_change(H);
+    const double smooth_theta = theta + (smooth_p - p) / bulk_modulus(body_.material(e));
     const Mat3 F = Mat3::Identity() + H;
     Mat3 smooth_F = Mat3::Identity() + smooth_H;
     smooth_F *= std::cbrt((1 + smooth_theta) / (1 + volume_change(smooth_H)));
-    const Mat3 P = isochoric_stress(e, F) + p * cofactor(F),
-               smooth_P = isochoric_stress(e, smooth_F) + smooth_p * cofactor(smooth_F);
+    const Mat3 P = isochoric_stress(e, F) + p * cofactor(F);
+    const Mat3 smooth_P = isochoric_stress(e, smooth_F) + smooth_p * cofactor(smooth_F);
     return {0.5 * (smooth_F - F).cwiseProduct(smooth_P - P).sum(),
             0.5 * (smooth_p - p) * (1 + theta - J)};
   }
@@ -196,8 +215,16 @@ class ContactFacets {
   ContactFacets(const RigidContact& contact, const Mesh& mesh, const StepRecord& state,
                 const ContactRecord& reactions)
       : contact_(contact), mesh_(mesh), state_(state), c_(indenter_at(contact, state)) {
-    front_ = mesh.section ? n_front(mesh) : mesh.n_nodes();
-    share_ = mesh.section ? cell_share(*mesh.section) : 1;
+    if (mesh.section) {
+      front_ = n_front(mesh);
+    } else {
+      front_ = mesh.n_nodes();
+    }
+    if (mesh.section) {
+      share_ = cell_share(*mesh.section);
+    } else {
+      share_ = 1;
+    }
     facets_ = facets_within(
         mesh, boundary(mesh),
         with_hanging(mesh, mesh.section ? through_layers(mesh, contact.nodes) : contact.nodes));
@@ -228,12 +255,15 @@ class ContactFacets {
   void change(const DualSolution& dual, std::size_t k, double eps, const On& on) const {
     const VecX pressure = pressure_of(dual.r[k]);
     each([&](const Facet& facet, const std::vector<int>& nodes, const VecX& N, double dA) {
-      Vec3 x = Vec3::Zero(), dx = Vec3::Zero();
+      Vec3 x = Vec3::Zero();
+      Vec3 dx = Vec3::Zero();
       double lambda = 0, d_lambda = 0;
       for (std::size_t a = 0; a < nodes.size(); ++a) {
         const double N_a = N[static_cast<Eigen::Index>(a)];
-        x += N_a * (mesh_.X[nodes[a]] + state_.u[nodes[a]]), dx += N_a * dual.u[nodes[a]];
-        lambda += N_a * pressure_[nodes[a] % front_], d_lambda += N_a * pressure[nodes[a] % front_];
+        x += N_a * (mesh_.X[nodes[a]] + state_.u[nodes[a]]);
+        dx += N_a * dual.u[nodes[a]];
+        lambda += N_a * pressure_[nodes[a] % front_];
+        d_lambda += N_a * pressure[nodes[a] % front_];
       }
       if (lambda == 0 && d_lambda == 0) return;
       const auto energy = [&](double s) {
@@ -254,7 +284,8 @@ class ContactFacets {
       const ElementNodes X = element_nodes(mesh_, facet.cell);
       for (const FacetPoint& point : cell.facet_points[facet.local]) {
         const MatX tangents = X.transpose() * cell.gradient(point.xi);
-        const Vec3 one = tangents * point.along_1, two = tangents * point.along_2;
+        const Vec3 one = tangents * point.along_1;
+        const Vec3 two = tangents * point.along_2;
         on(facet, nodes, cell.shape(point.xi), share_ * point.weight * one.cross(two).norm());
       }
     }
@@ -281,12 +312,14 @@ EnergyErrors energy_errors(const Scene& scene, const Mesh& mesh, const StepRecor
   out.alone = cells.alone();
   out.along.resize(duals.size());
   for (auto& d : out.along) d.of_cell.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
-  const double share = mesh.section ? cell_share(*mesh.section) : 1;
+  double share = 1;
+  if (mesh.section) share = cell_share(*mesh.section);
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int g = 0; g < mesh.cell().n_gauss; ++g) {
       const std::vector<PointError> here = cells.at(e, g, share);
       for (std::size_t k = 0; k < duals.size(); ++k) {
-        out.along[k].shape += here[k].shape, out.along[k].volume += here[k].volume;
+        out.along[k].shape += here[k].shape;
+        out.along[k].volume += here[k].volume;
         out.along[k].of_cell[static_cast<std::size_t>(e)] += here[k].shape + here[k].volume;
       }
     }

@@ -145,7 +145,8 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
     if (asked) return out;
   }
   if (asked && is_too_thin(run_)) return to_be_cut_everywhere(run_.mesh, across_one_cell);
-  const bool unloaded_now = unloaded(), nothing_left = is_homogeneous(run_) || unloaded_now;
+  const bool unloaded_now = unloaded();
+  const bool nothing_left = is_homogeneous(run_) || unloaded_now;
   const RecoveredError at_end = nothing_left ? RecoveredError{} : recovered_error(*body_, last.u);
   const StepForces forces = step_forces(config_, run_.scene, run_.mesh, last);
   const std::vector<ErrorEstimate> errors =
@@ -182,7 +183,8 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
 std::vector<double> RecoveredPath::parts(const RecoveredError& error,
                                          const std::vector<ErrorEstimate>& errors,
                                          const StepRecord& last) const {
-  const double times = told_times(config_), smooth = times * error.energy_share();
+  const double times = told_times(config_);
+  const double smooth = times * error.energy_share();
   double whole = smooth;
   for (const ErrorEstimate& e : forces_judged(errors))
     if (const double size = std::abs(e.of.value); size > 0)

@@ -44,7 +44,8 @@ std::array<SolveConfig, 2> wider(const SolveConfig& config, Truncation truncatio
 }
 
 double beyond(double f1, double f2, double f3) {
-  const double d1 = f2 - f1, d2 = f3 - f2;
+  const double d1 = f2 - f1;
+  const double d2 = f3 - f2;
   if (const double r = d1 != 0 ? d2 / d1 : 1; r >= 0 && r < 0.8)
     return -(d1 + d2 + d2 * r / (1 - r));
   return -std::copysign(std::abs(d1) + std::abs(d2), d1 + d2);

@@ -45,8 +45,10 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
         so_far >= enough &&
         static_cast<double>(n) >= fewest_cells * static_cast<double>(parts.size());
     if (parts[e] == 0 || (are_enough && parts[e] < (1 - alike) * last)) break;
-    marked[e] = 1, ++n;
-    so_far += parts[e], last = parts[e];
+    marked[e] = 1;
+    ++n;
+    so_far += parts[e];
+    last = parts[e];
   }
   return marked;
 }
@@ -60,7 +62,8 @@ std::string why_not_cut(const SolveConfig& config) {
   if (dual && has_friction(config)) return "a dual solution knows no friction";
   if (config.path.seconds) return "errors by cells are those of an elastic body";
   const std::vector<Complaint> never = not_on_cut_cells(config);
-  return never.empty() ? "" : never.front().found;
+  if (never.empty()) return "";
+  return never.front().found;
 }
 
 std::string why_not_cut(const Mesh& mesh) {

@@ -26,8 +26,10 @@ LevelCost level_cost(const SolveConfig& config, const Mesh& mesh,
                      const std::optional<Material>& material, const Run::Where& where) {
   Run run(mesh, config, material, where);
   const Forecast f = forecast_of(config, run.body, run.statics, run.scene.stops);
-  const double estimate =
-      config.estimate == EstimateBy::refinement ? estimate_seconds(config, material, where) : 0;
+  double estimate = 0;
+  if (config.estimate == EstimateBy::refinement) {
+    estimate = estimate_seconds(config, material, where);
+  }
   return {f.seconds() + estimate, f.bytes,
           resident_bytes() + std::min(free_memory(), free_address())};
 }

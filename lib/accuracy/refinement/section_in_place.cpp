@@ -104,7 +104,8 @@ void move_to_axis(SolveConfig& config, const Vec3& axis) {
 }  // namespace
 
 RadiiOfBlock radii_of(const IndentedBlock& block) {
-  const double a = block.size[0], b = block.size[2];
+  const double a = block.size[0];
+  const double b = block.size[2];
   return {0.5 * std::min(a, b), std::sqrt(a * b / std::numbers::pi), 0.5 * std::hypot(a, b)};
 }
 
@@ -128,8 +129,10 @@ std::optional<SolveConfig> on_a_disc(const SolveConfig& config,
       !has_round_sets(config, axis))
     return std::nullopt;
   SolveConfig section = config;
-  section.accuracy.reset(), section.fidelity.reset();
-  section.symmetry = SymmetryChoice::none, section.reduce = Reduce::none;
+  section.accuracy.reset();
+  section.fidelity.reset();
+  section.symmetry = SymmetryChoice::none;
+  section.reduce = Reduce::none;
   IndentedDisc disc{
       {radius, block->size[1]}, block->origin[1], block->radius, block->depth, block->edge};
   if (block->even) disc.even = (*block->even)[0];
@@ -165,7 +168,8 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
         asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
     accuracy_->level.cells = bilinear ? CellType::hex8 : CellType::hex27;
     accuracy_->level.edge = bilinear ? edge_hex8 : edge_hex27;
-    accuracy_->finest = finest, accuracy_->written = section->mesh->geometry;
+    accuracy_->finest = finest;
+    accuracy_->written = section->mesh->geometry;
     put(*accuracy_, *section);
   }
   try {
@@ -193,8 +197,9 @@ void SectionInPlace::measure_sides(const SolveConfig& section,
     disc.mesh->points.clear();
     return forces_judged(end_of_path(disc, material, where));
   };
-  const auto alike = forces(radii_.alike), inside = forces(radii_.inside),
-             around = forces(radii_.around);
+  const auto alike = forces(radii_.alike);
+  const auto inside = forces(radii_.inside);
+  const auto around = forces(radii_.around);
   for (std::size_t i = 0; i < alike.size(); ++i) {
     const double most = std::max(std::abs(inside[i].value - alike[i].value),
                                  std::abs(around[i].value - alike[i].value));

@@ -40,7 +40,10 @@ class SectionInPlace {
 
   bool taken() const { return section_.has_value(); }
   bool offered() const { return offered_; }  // the scene has one, and nobody has asked for it
-  const SolveConfig& config() const { return section_ ? *section_ : asked_; }  // to be solved
+  const SolveConfig& config() const {
+    if (section_) return *section_;
+    return asked_;
+  }  // to be solved
   // With these errors of the section beside those of the sides: whether an accuracy that was asked
   // for is kept. Where it is not, config() is another one now: what finer_level says for the rest
   // that the sides leave, then the block.

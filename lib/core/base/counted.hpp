@@ -10,8 +10,10 @@ namespace langer {
 
 inline std::string counted(std::size_t n, std::string_view one) {
   if (n == 1) return fmt::format("1 {}", one);
-  return one.ends_with('y') ? fmt::format("{} {}ies", n, one.substr(0, one.size() - 1))
-                            : fmt::format("{} {}s", n, one);
+  if (one.ends_with('y')) {
+    return fmt::format("{} {}ies", n, one.substr(0, one.size() - 1));
+  }
+  return fmt::format("{} {}s", n, one);
 }
 
 }  // namespace langer

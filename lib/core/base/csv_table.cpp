@@ -1,4 +1,5 @@
 #include "core/base/csv_table.hpp"
+#include "core/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,8 @@ constexpr const char* blanks = " \t";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? ""
-                                    : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
 std::vector<CsvCell> words_of(const std::string& line) {
@@ -134,8 +135,12 @@ std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) 
                                 "UTF-8",
                                 "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
   std::vector<CsvLine> lines;
-  const char end =
-      text.find('\n') == std::string::npos && text.find('\r') != std::string::npos ? '\r' : '\n';
+  char end = ' ';
+  if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos) {
+    end = '\r';
+  } else {
+    end = '\n';
+  }
   std::istringstream in(text);
   int number = 0;
   for (std::string line; std::getline(in, line, end);) {
@@ -172,7 +177,8 @@ std::optional<char> told_separator(const std::vector<CsvLine>& lines) {
   std::string word = lines[0].text.substr(0, 4);
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return word == "sep=" ? std::optional(lines[0].text[4]) : std::nullopt;
+  if (word == "sep=") return std::optional(lines[0].text[4]);
+  return std::nullopt;
 }
 
 struct Beginning {
@@ -304,7 +310,8 @@ std::vector<CsvCell> csv_cells(const std::string& line, char separator) {
   std::vector<CsvCell> row;
   std::size_t begin = 0;
   while (true) {
-    std::size_t first = line.find_first_not_of(separator == '\t' ? " " : blanks, begin), end = 0;
+    std::size_t first = line.find_first_not_of(separator == '\t' ? " " : blanks, begin);
+    std::size_t end = 0;
     if (first != std::string::npos && line[first] == '"') {
       const std::string text = unquoted(line, first, end);
       row.push_back({trimmed(text), static_cast<int>(first) + 1});
@@ -436,7 +443,7 @@ std::string label_above(const std::vector<CsvLine>& lines, std::size_t names, ch
   std::string label;
   for (const CsvCell& cell : row_of(lines[names - 1], separator).cells) {
     if (!cell.text.empty()) {
-      label += (label.empty() ? "" : " ") + cell.text;
+      append(label, " ", cell.text);
     }
   }
   return label;
@@ -449,7 +456,10 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
   table.name = shown_name;
   std::vector<CsvLine> lines = lines_of(text, shown_name);
   std::string separators = "\t;, ";
-  if (const auto told = told_separator(lines)) separators = *told, lines.erase(lines.begin());
+  if (const auto told = told_separator(lines)) {
+    separators = *told;
+    lines.erase(lines.begin());
+  }
   std::optional<Beginning> known = known_beginning(lines, separators, reading);
   const bool known_header = known.has_value();
   const Beginning begin =
@@ -458,8 +468,12 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
   drop_empty_end(table.header.cells, 1);
 
   // Lines between the blocks are marked, so that they are not read as rows.
-  const std::vector<std::size_t> repeated =
-      known_header ? repeated_names(lines, begin) : std::vector<std::size_t>();
+  std::vector<std::size_t> repeated;
+  if (known_header) {
+    repeated = repeated_names(lines, begin);
+  } else {
+    repeated = std::vector<std::size_t>();
+  }
   const bool text_rows = !repeated.empty() && rows_begin_with_text(lines, begin);
   std::set<std::size_t> between;
   for (const std::size_t names : repeated) {
@@ -509,7 +523,11 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
     }
   }
   if (!errors.empty()) throw Failure(Exit::input, errors);
-  table.decimal = reading.decimal ? *reading.decimal : decimal_sign(table);
+  if (reading.decimal) {
+    table.decimal = *reading.decimal;
+  } else {
+    table.decimal = decimal_sign(table);
+  }
   return table;
 }
 

@@ -17,15 +17,14 @@ double factor_rate(const LoadFactor& factor, double t) {
 
 bool History::goes_on(double before, double now, double next) const {
   if (!factor) return true;
-  const double rate = (at(next) - at(now)) / (next - now),
-               last = (at(now) - at(before)) / (now - before);
+  const double rate = (at(next) - at(now)) / (next - now);
+  const double last = (at(now) - at(before)) / (now - before);
   return std::abs(rate - last) <= 1e-6 * std::max(std::abs(rate), std::abs(last));
 }
 
 bool HistoryConfig::moves() const {
-  return points.empty() ? value != 0
-                        : std::any_of(points.begin(), points.end(),
-                                      [](const auto& point) { return point.to != 0; });
+  if (points.empty()) return value != 0;
+  return std::any_of(points.begin(), points.end(), [](const auto& point) { return point.to != 0; });
 }
 
 History history_of(const HistoryConfig& config, std::optional<double> seconds) {

@@ -36,7 +36,8 @@ Value value_at(const std::vector<HistoryPoint<Value>>& points, double t) {
 using LoadFactor = std::shared_ptr<const std::vector<HistoryPoint<double>>>;
 
 inline double factor_at(const LoadFactor& factor, double t) {
-  return factor ? value_at(*factor, t) : t;
+  if (factor) return value_at(*factor, t);
+  return t;
 }
 // its slope there, at a kink that of the piece before
 double factor_rate(const LoadFactor& factor, double t);
@@ -68,13 +69,17 @@ struct HistoryConfig {
   double value = 0;  // where there are no points
   std::vector<HistoryPointConfig> points;
   bool moves() const;  // other than 0 somewhere
-  double at_end() const { return points.empty() ? value : points.back().to; }
+  double at_end() const {
+    if (points.empty()) return value;
+    return points.back().to;
+  }
 };
 // Where on the path, t or s over its seconds, a point of any history is: the one listing and the
 // one rule of all of them.
 template <class Point>
 double place(const Point& point, std::optional<double> seconds) {
-  return point.s ? *point.s / seconds.value() : point.t.value();
+  if (point.s) return *point.s / seconds.value();
+  return point.t.value();
 }
 template <class Point>
 void list_place(auto& v) {
@@ -93,14 +98,16 @@ std::vector<Complaint> place_complaints(const std::vector<Point>& points, const 
   std::vector<Complaint> found;
   if (points.empty())
     found.push_back({key, "found an empty list", std::string("at least ") + example, ""});
-  bool in_t = false, in_s = false;
+  bool in_t = false;
+  bool in_s = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (p.t.has_value() == p.s.has_value())
       found.push_back({std::string(key) + "[" + std::to_string(i) + "]",
                        p.t ? "found t and s" : "found neither t nor s", "one of the two",
                        "t: 0 to 1 along the path; s: seconds, with path: {seconds: ...}"});
-    in_t = in_t || p.t, in_s = in_s || p.s;
+    in_t = in_t || p.t;
+    in_s = in_s || p.s;
     if (i > 0 && (p.t <= points[i - 1].t && p.s <= points[i - 1].s))
       found.push_back({key, "times that do not increase",
                        std::string("each ") + (in_s ? "s" : "t") + " greater than the one before",

@@ -15,7 +15,10 @@ namespace langer {
 template <class Compute, class Add>
 void in_order(int threads, int n, Compute compute, Add add) {
   if (threads <= 1 || n <= 1) {
-    for (int i = 0; i < n; ++i) compute(0, i), add(0, i);
+    for (int i = 0; i < n; ++i) {
+      compute(0, i);
+      add(0, i);
+    }
     return;
   }
   std::mutex mutex;

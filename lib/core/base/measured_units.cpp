@@ -51,7 +51,7 @@ constexpr double inch = 25.4;
 
 // Spellings in which upper and lower case differ in meaning: mN and MN, mPa and MPa.
 const std::array<Spellings, 21>& exact_spellings() {
-  using enum Quantity;
+  using enum UnitKind;
   static const std::array<Spellings, 21> known{{
       {{"fraction", ratio, 1}, {"-", "1", "mm/mm", "m/m", "in/in", "in./in."}},
       {{"percent", ratio, 0.01}, {"%", "percent"}},
@@ -80,7 +80,7 @@ const std::array<Spellings, 21>& exact_spellings() {
 
 // Times are spelled in any mixture of upper and lower case.
 const std::array<Spellings, 6>& time_spellings() {
-  using enum Quantity;
+  using enum UnitKind;
   static const std::array<Spellings, 6> known{{
       {{"us", time, 1e-6}, {"us", "\xC2\xB5s", "\xCE\xBCs", "microseconds"}},
       {{"ms", time, 1e-3}, {"ms", "msec", "millisecond", "milliseconds", "millisekunden"}},
@@ -97,7 +97,7 @@ const std::array<Spellings, 6>& time_spellings() {
 // Units that a heading may end in behind a blank or an underscore. "lambda_m" is no length,
 // "I1_bar" no pressure and "Dehnung 1" has no unit.
 bool may_follow_blank(const MeasuredUnit& unit, const std::string& text) {
-  if (unit.quantity == Quantity::time || unit.quantity == Quantity::ratio) {
+  if (unit.quantity == UnitKind::time || unit.quantity == UnitKind::ratio) {
     return text == "%" || text == "percent" || text == "-" || text == "mm/mm" || text == "m/m" ||
            text == "in/in";
   }
@@ -110,7 +110,12 @@ std::optional<Heading> split_at_slash(const std::string& name) {
     const std::string words = trimmed(name.substr(0, at));
     const std::string unit = without_brackets(name.substr(at + 1));
     const std::size_t last_word = words.find_last_of(blanks);
-    const std::string before = last_word == std::string::npos ? "" : words.substr(last_word + 1);
+    std::string before;
+    if (last_word == std::string::npos) {
+      before = "";
+    } else {
+      before = words.substr(last_word + 1);
+    }
     // "Stiffness N/mm" is a unit of its own
     if (!words.empty() && measured_unit(unit) && !measured_unit(before)) {
       return Heading{words, unit};
@@ -180,11 +185,16 @@ std::string time_unit_text(const std::string& name, const std::string& unit_belo
     return without_brackets(unit_below);
   }
   const std::size_t blank = name.find_last_of("_ ");
-  const std::string end = blank == std::string::npos ? name : name.substr(blank + 1);
+  std::string end;
+  if (blank == std::string::npos) {
+    end = name;
+  } else {
+    end = name.substr(blank + 1);
+  }
   const auto unit = measured_unit(end);
   // a column called "s" or "h" alone is no statement; "Minutes" or "seconds" is one
   const bool says_unit = blank != std::string::npos || end.size() > 2;
-  if (unit && unit->quantity == Quantity::time && says_unit) {
+  if (unit && unit->quantity == UnitKind::time && says_unit) {
     return end;
   }
   return "";

@@ -11,11 +11,11 @@
 
 namespace langer {
 
-enum class Quantity { ratio, length, force, stress, time };
+enum class UnitKind { ratio, length, force, stress, time };
 
 struct MeasuredUnit {
   std::string name;  // the one name of all spellings: "N/mm2" is MPa, "Minutes" is min
-  Quantity quantity = Quantity::ratio;
+  UnitKind quantity = UnitKind::ratio;
   double factor = 1;
 };
 

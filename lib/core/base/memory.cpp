@@ -19,7 +19,8 @@ double line_of(const char* file, const std::string& key) {
   for (std::string word; in >> word;)
     if (word == key) {
       double kilobytes = 0;
-      return in >> kilobytes ? 1024 * kilobytes : nothing;
+      if (in >> kilobytes) return 1024 * kilobytes;
+      return nothing;
     }
   return nothing;
 }
@@ -35,8 +36,8 @@ double group_bytes() {
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("0::", 0) != 0) continue;
     const std::string folder = "/sys/fs/cgroup" + line.substr(3);
-    const double limit = number_in(folder + "/memory.max"),
-                 used = number_in(folder + "/memory.current");
+    const double limit = number_in(folder + "/memory.max");
+    const double used = number_in(folder + "/memory.current");
     if (limit < nothing && used < nothing) return limit - used;
   }
   return nothing;
@@ -46,7 +47,10 @@ double group_bytes() {
 double resident_bytes() {
   std::ifstream in("/proc/self/statm");
   double total = 0, resident = 0;
-  return in >> total >> resident ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
+  if (in >> total >> resident) {
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
+  return 0;
 }
 
 double peak_bytes() {
@@ -63,7 +67,10 @@ double free_address() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return nothing;
   const double taken = line_of("/proc/self/status", "VmSize:");
-  return taken < nothing ? std::max(0.0, static_cast<double>(limit.rlim_cur) - taken) : nothing;
+  if (taken < nothing) {
+    return std::max(0.0, static_cast<double>(limit.rlim_cur) - taken);
+  }
+  return nothing;
 }
 
 }  // namespace langer

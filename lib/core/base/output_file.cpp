@@ -1,4 +1,5 @@
 #include "core/base/output_file.hpp"
+#include "core/base/text.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -145,9 +146,9 @@ std::string make_private_folder(const std::string& parent) {
 
 void make_folder_below(const std::string& root, const std::string& folder) {
   std::error_code failed;
-  fs::create_directories(root.empty() ? "." : root, failed);
+  fs::create_directories(text_or(root, "."), failed);
   fs::path reached = root;
-  for (const fs::path& part : fs::path(folder).lexically_relative(root.empty() ? "." : root)) {
+  for (const fs::path& part : fs::path(folder).lexically_relative(text_or(root, "."))) {
     reached /= part;
     if (fs::is_symlink(fs::symlink_status(reached, failed))) refuse_link(reached.string());
     fs::create_directory(reached, failed);

@@ -22,8 +22,8 @@ class Random {
   }
   // mean 0, standard deviation 1
   double normal() {
-    const double r = std::sqrt(-2 * std::log(1 - uniform())),
-                 angle = 2 * std::numbers::pi * uniform();
+    const double r = std::sqrt(-2 * std::log(1 - uniform()));
+    const double angle = 2 * std::numbers::pi * uniform();
     return r * std::cos(angle);
   }
 

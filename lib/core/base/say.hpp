@@ -52,7 +52,8 @@ inline void say_raw(const std::string& shown, const std::string& plain) {
 }
 
 inline void say_line(const std::string& line) {
-  const std::size_t warning = in_colour() ? line.find("warning: ") : std::string::npos;
+  std::size_t warning = std::string::npos;
+  if (in_colour()) warning = line.find("warning: ");
   if (warning == std::string::npos) return say_raw(line, line);
   say_raw(line.substr(0, warning) + "\033[33mwarning:\033[0m" + line.substr(warning + 8), line);
 }

@@ -59,7 +59,8 @@ class Sum {
         for (std::size_t b = 0; b < 4; ++b) w[i] = w[i] << 8 | block_[4 * i + b];
         continue;
       }
-      const std::uint32_t a = w[i - 15], b = w[i - 2];
+      const std::uint32_t a = w[i - 15];
+      const std::uint32_t b = w[i - 2];
       w[i] = w[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3) + w[i - 7] +
              (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10);
     }
@@ -69,7 +70,14 @@ class Sum {
                                 ((e & f) ^ (~e & g)) + k[i] + w[i];
       const std::uint32_t two =
           (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
-      h = g, g = f, f = e, e = d + one, d = c, c = b, b = a, a = one + two;
+      h = g;
+      g = f;
+      f = e;
+      e = d + one;
+      d = c;
+      c = b;
+      b = a;
+      a = one + two;
     }
     const std::array<std::uint32_t, 8> more{a, b, c, d, e, f, g, h};
     for (std::size_t i = 0; i < 8; ++i) h_[i] += more[i];

@@ -26,7 +26,10 @@ class NoTraps {
 
 class Traps {
  public:
-  Traps() { std::feholdexcept(&before_), set_traps(); }
+  Traps() {
+    std::feholdexcept(&before_);
+    set_traps();
+  }
   ~Traps() { std::fesetenv(&before_); }
   Traps(const Traps&) = delete;
   Traps& operator=(const Traps&) = delete;

@@ -17,8 +17,13 @@ inline std::string xml_text(const std::string& text) {
       s += "&gt;";
     else if (c == '"')
       s += "&quot;";
-    else
-      s += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    else {
+      if (static_cast<unsigned char>(c) < ' ') {
+        s += ' ';
+      } else {
+        s += c;
+      }
+    }
   }
   return s;
 }

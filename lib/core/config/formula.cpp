@@ -21,7 +21,9 @@ std::vector<double> evaluate(const std::string& formula, const std::vector<Formu
   try {
     const NoTraps in_the_formula;  // 1/0 is refused with its place
     mu::Parser parser;
-    parser.DefineVar("x", &at.x), parser.DefineVar("y", &at.y), parser.DefineVar("z", &at.z);
+    parser.DefineVar("x", &at.x);
+    parser.DefineVar("y", &at.y);
+    parser.DefineVar("z", &at.z);
     parser.SetExpr(formula);
     for (const FormulaPoint& point : points) {
       at = point;

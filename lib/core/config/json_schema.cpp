@@ -1,4 +1,5 @@
 #include "core/config/json_schema.hpp"
+#include "core/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -15,13 +16,13 @@ std::string flat(const Tree& t) {
     case Tree::Kind::null:
       return "null";
     case Tree::Kind::scalar:
-      return t.quoted ? quoted(t.scalar) : t.scalar;
+      if (t.quoted) return quoted(t.scalar);
+      return t.scalar;
     case Tree::Kind::list:
-      for (const Tree& item : t.list) s += (s.empty() ? "" : ", ") + flat(item);
+      for (const Tree& item : t.list) append(s, ", ", flat(item));
       return "[" + s + "]";
     case Tree::Kind::map:
-      for (const auto& [key, value] : t.map)
-        s += (s.empty() ? "" : ", ") + quoted(key) + ": " + flat(value);
+      for (const auto& [key, value] : t.map) append(s, ", ", quoted(key) + ": " + flat(value));
       return "{" + s + "}";
   }
   return s;
@@ -37,12 +38,12 @@ std::string json_of(const Tree& t, int indent) {
     return one;
   const std::string margin(static_cast<std::size_t>(indent) + 2, ' ');
   std::string s;
-  for (const Tree& item : t.list)
-    s += (s.empty() ? "" : ",\n") + margin + json_of(item, indent + 2);
+  for (const Tree& item : t.list) append(s, ",\n", margin + json_of(item, indent + 2));
   for (const auto& [key, value] : t.map)
-    s += (s.empty() ? "" : ",\n") + margin + quoted(key) + ": " + json_of(value, indent + 2);
+    append(s, ",\n", margin + quoted(key) + ": " + json_of(value, indent + 2));
   const std::string end(static_cast<std::size_t>(indent), ' ');
-  return t.kind == Tree::Kind::map ? "{\n" + s + "\n" + end + "}" : "[\n" + s + "\n" + end + "]";
+  if (t.kind == Tree::Kind::map) return "{\n" + s + "\n" + end + "}";
+  return "[\n" + s + "\n" + end + "]";
 }
 
 namespace schema {

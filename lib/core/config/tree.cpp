@@ -1,4 +1,5 @@
 #include "core/config/tree.hpp"
+#include "core/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -76,10 +77,11 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
       if (at->kind == Tree::Kind::null) at->kind = Tree::Kind::map;
       if (at->kind != Tree::Kind::map)
         fail(fmt::format("{} is {}", walked, description(*at)), "a map");
-      walked += (walked.empty() ? "" : ".") + step.key;
+      append(walked, ".", step.key);
       if (!at->find(step.key)) {
         Tree made;
-        made.place = place, made.set_later = true;
+        made.place = place;
+        made.set_later = true;
         at->map.push_back({step.key, made});
       }
       Tree* next = const_cast<Tree*>(at->find(step.key));
@@ -88,7 +90,8 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
       at = next;
     }
   }
-  value.layers = at->layers, value.set_later = at->set_later;
+  value.layers = at->layers;
+  value.set_later = at->set_later;
   *at = std::move(value);
 }
 
@@ -118,9 +121,10 @@ std::string description(const Tree& tree) {
     case Tree::Kind::scalar:
       break;
   }
-  const std::string shown =
-      tree.scalar.size() > longest ? tree.scalar.substr(0, longest) + "..." : tree.scalar;
-  return tree.quoted ? "the text \"" + shown + "\"" : shown;
+  std::string shown = tree.scalar;
+  if (tree.scalar.size() > longest) shown = tree.scalar.substr(0, longest) + "...";
+  if (tree.quoted) return "the text \"" + shown + "\"";
+  return shown;
 }
 
 }  // namespace langer

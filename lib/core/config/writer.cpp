@@ -1,4 +1,5 @@
 #include "core/config/writer.hpp"
+#include "core/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,8 @@ std::string as_held(const std::string& path) { return path; }
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 std::string relative_path(const std::string& path, const std::string& folder) {
   // of a folder that does not exist yet, only the absolute name can be made canonical
-  const fs::path from = fs::absolute(folder.empty() ? "." : folder), to = fs::absolute(path);
+  const fs::path from = fs::absolute(text_or(folder, "."));
+  const fs::path to = fs::absolute(path);
   std::error_code ec;
   const fs::path relative = fs::relative(to, from, ec);
   return (ec ? to.lexically_relative(from) : relative)
@@ -49,7 +51,8 @@ bool is_safe_plain(const std::string& s) {
 
 std::string in_line(const Tree& t) {
   if (t.kind == Tree::Kind::null) return "null";
-  return t.quoted ? quoted(t.scalar) : t.scalar;
+  if (t.quoted) return quoted(t.scalar);
+  return t.scalar;
 }
 
 bool fits_a_line(const Tree& t) {
@@ -63,7 +66,7 @@ std::string one_line(const Tree& t) {
   if (t.kind == Tree::Kind::map) return "{}";
   if (t.kind != Tree::Kind::list) return in_line(t);
   std::string s;
-  for (const Tree& item : t.list) s += (s.empty() ? "" : ", ") + in_line(item);
+  for (const Tree& item : t.list) append(s, ", ", in_line(item));
   return "[" + s + "]";
 }
 

@@ -250,7 +250,11 @@ std::uint64_t layers_in(const Tree& tree) {
 }
 
 void put_under(Tree& tree, int layers) {
-  tree.layers = layers < 64 ? tree.layers << layers : 0;
+  if (layers < 64) {
+    tree.layers = tree.layers << layers;
+  } else {
+    tree.layers = 0;
+  }
   for (Tree& item : tree.list) put_under(item, layers);
   for (auto& entry : tree.map) put_under(entry.value, layers);
 }
@@ -272,7 +276,8 @@ Tree load(const std::string& path, Reading& reading);
 fs::path own_name(const fs::path& path) {
   std::error_code ec;
   const fs::path canonical = fs::weakly_canonical(path, ec);
-  return ec ? path.lexically_normal() : canonical;
+  if (ec) return path.lexically_normal();
+  return canonical;
 }
 
 // What a file that is not there may have been meant for: its present name, or the nearest one
@@ -284,11 +289,17 @@ std::string meant_for(const fs::path& path) {
        fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ec))
     if (entry.path().extension() == ".yaml") beside.push_back(entry.path().filename().string());
   const std::string name = path.filename().string();
-  std::string now = name == "trade.yaml"         ? "refinement_study.yaml"
-                    : name.starts_with("trade_") ? "refinement" + name.substr(5)
-                                                 : "";
+  std::string now;
+  if (name == "trade.yaml") {
+    now = "refinement_study.yaml";
+  } else if (name.starts_with("trade_")) {
+    now = "refinement" + name.substr(5);
+  } else {
+    now = "";
+  }
   if (std::find(beside.begin(), beside.end(), now) == beside.end()) now = nearest(name, beside);
-  return now.empty() ? "" : fmt::format("did you mean \"{}\"?", now);
+  if (now.empty()) return "";
+  return fmt::format("did you mean \"{}\"?", now);
 }
 
 void resolve_includes(Tree& tree, Reading& reading) {

@@ -97,8 +97,8 @@ std::optional<std::size_t> colon_without_blank(const TextLine& line) {
 
 YamlTrouble yaml_trouble(const std::string& text, int line, int column, const std::string& words) {
   const std::vector<TextLine> lines = lines_of(text);
-  const auto at = static_cast<std::size_t>(std::max(line, 1) - 1),
-             last = std::min(at, lines.empty() ? 0 : lines.size() - 1);
+  const auto at = static_cast<std::size_t>(std::max(line, 1) - 1);
+  const auto last = std::min(at, lines.empty() ? 0 : lines.size() - 1);
   const auto place = [](std::size_t row, std::size_t k) {
     return std::pair{static_cast<int>(row) + 1, static_cast<int>(k) + 1};
   };

@@ -17,7 +17,8 @@ inline std::uint64_t checksum(std::string_view bytes, std::uint64_t h = 0xcbf29c
   take(bytes.size());
   while (!bytes.empty()) {
     std::uint64_t word = 0;
-    const std::size_t n = bytes.size() < 8 ? bytes.size() : 8;
+    std::size_t n = 8;
+    if (bytes.size() < 8) n = bytes.size();
     std::memcpy(&word, bytes.data(), n);
     take(word);
     bytes.remove_prefix(n);

@@ -55,14 +55,16 @@ std::string words(const Shape& shape) {
   std::vector<std::string> extents;
   for (std::size_t extent : shape)
     extents.push_back(extent == any ? "any" : std::to_string(extent));
-  return shape.empty() ? "a scalar" : fmt::format("shape ({})", fmt::join(extents, ", "));
+  if (shape.empty()) return "a scalar";
+  return fmt::format("shape ({})", fmt::join(extents, ", "));
 }
 
 std::vector<hsize_t> extents(const Shape& shape) { return {shape.begin(), shape.end()}; }
 
 Handle dataspace(const Shape& shape, const Shape& most = {}) {
   if (shape.empty()) return {H5Screate(H5S_SCALAR), H5Sclose};
-  const auto now = extents(shape), limit = extents(most);
+  const auto now = extents(shape);
+  const auto limit = extents(most);
   return {H5Screate_simple(static_cast<int>(shape.size()), now.data(),
                            limit.empty() ? nullptr : limit.data()),
           H5Sclose};
@@ -88,7 +90,8 @@ void Group::write(const std::string& name, const Shape& shape, std::span<const T
         Error{
             {file_->path}, full(name), fmt::format("{} values", values.size()), words(shape), ""});
   if (!has(name)) {
-    const Handle list = creation(H5P_DATASET_CREATE), space = dataspace(shape);
+    const Handle list = creation(H5P_DATASET_CREATE);
+    const Handle space = dataspace(shape);
     const Handle made(H5Dcreate2(file_->id, full(name).c_str(), Kind<T>::file(), space, H5P_DEFAULT,
                                  list, H5P_DEFAULT),
                       H5Dclose);
@@ -109,11 +112,14 @@ void Group::write_scalar(const std::string& name, double value, const std::strin
 }
 
 void Group::write_text(const std::string& name, const std::string& text) const {
-  const Handle type = string_type(text), list = creation(H5P_DATASET_CREATE), space = dataspace({});
+  const Handle type = string_type(text);
+  const Handle list = creation(H5P_DATASET_CREATE);
+  const Handle space = dataspace({});
   const Handle made(
       H5Dcreate2(file_->id, full(name).c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT),
       H5Dclose);
-  const std::string padded = text.empty() ? std::string(1, '\0') : text;
+  std::string padded = text;
+  if (text.empty()) padded = std::string(1, '\0');
   written(made.good() && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0,
           *this, name);
 }
@@ -123,10 +129,13 @@ void Group::make_extendible(const std::string& name, const Shape& row, std::size
                             const std::string& unit) const {
   Shape now{0}, most{static_cast<std::size_t>(H5S_UNLIMITED)},
       chunk{std::max<std::size_t>(1, rows_per_chunk)};
-  for (std::size_t extent : row)
-    now.push_back(extent), most.push_back(extent),
-        chunk.push_back(std::max<std::size_t>(1, extent));
-  const Handle list = creation(H5P_DATASET_CREATE), space = dataspace(now, most);
+  for (std::size_t extent : row) {
+    now.push_back(extent);
+    most.push_back(extent);
+    chunk.push_back(std::max<std::size_t>(1, extent));
+  }
+  const Handle list = creation(H5P_DATASET_CREATE);
+  const Handle space = dataspace(now, most);
   const T blank = Kind<T>::blank;
   H5Pset_chunk(list, static_cast<int>(chunk.size()), extents(chunk).data());
   H5Pset_fill_value(list, Kind<T>::memory(), &blank);
@@ -142,16 +151,20 @@ void Group::append(const std::string& name, std::span<const T> rows) const {
   const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
   const auto before = shape_of(dataset);
   if (!before) refuse(name, "dataset is missing");
-  Shape whole = *before, block = whole;
-  const std::size_t row = product({whole.begin() + 1, whole.end()}),
-                    count = row ? rows.size() / row : 0;
+  Shape whole = *before;
+  Shape block = whole;
+  const std::size_t row = product({whole.begin() + 1, whole.end()});
+  std::size_t count = 0;
+  if (row) count = rows.size() / row;
   if (count * row != rows.size())
     throw Failure(
         Exit::bug,
         Error{{file_->path}, full(name), fmt::format("{} values", rows.size()), "whole rows", ""});
   if (count == 0) return;
   std::vector<hsize_t> first(whole.size(), 0);
-  first[0] = whole[0], whole[0] += count, block[0] = count;
+  first[0] = whole[0];
+  whole[0] += count;
+  block[0] = count;
   written(H5Dset_extent(dataset, extents(whole).data()) >= 0, *this, name);
   const Handle space(H5Dget_space(dataset), H5Sclose), memory = dataspace(block);
   written(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extents(block).data(),

@@ -81,8 +81,8 @@ void begin_beside(const std::string& output) { first_time = !fs::exists(output);
 void need_replaceable_by(const std::string& path, const std::string& text) {
   need_replaceable(path);
   if (!first_time) return;
-  const std::string line = text.substr(0, text.find('\n') + 1),
-                    is = begin_of(path, std::max<std::size_t>(line.size(), 1));
+  const std::string line = text.substr(0, text.find('\n') + 1);
+  const std::string is = begin_of(path, std::max<std::size_t>(line.size(), 1));
   if (!is.empty() && is != line)
     refuse(path, "is there already and was not made by this step",
            "remove or rename it, or -o into another folder");

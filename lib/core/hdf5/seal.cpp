@@ -1,4 +1,5 @@
 #include "core/hdf5/seal.hpp"
+#include "core/base/text.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -86,8 +87,10 @@ Seal seal_of(const std::string& path) {
   if (!older && !seal.starts_with(seal_begin)) return Seal::none;
   in.seekg(0);
   const std::uint64_t sum = over_blocks(in, size - seal_length, older ? older_checksum : checksum);
-  return seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum) ? Seal::broken
-                                                                           : Seal::whole;
+  if (seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum)) {
+    return Seal::broken;
+  }
+  return Seal::whole;
 }
 
 void rename_durably(const std::string& from, const std::string& to) {
@@ -98,7 +101,7 @@ void rename_durably(const std::string& from, const std::string& to) {
 
 void sync_folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  sync_path(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+  sync_path(text_or(folder, "."), O_RDONLY | O_DIRECTORY);
 }
 
 namespace {

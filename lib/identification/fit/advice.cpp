@@ -29,7 +29,8 @@ Known known(const MatX& M) {
   for (Eigen::Index i = 0; i < n; ++i) {
     double sum = 0;
     for (Eigen::Index c = 0; c < n; ++c) {
-      const double v = eigen.vectors(i, c), l = eigen.values[c];
+      const double v = eigen.vectors(i, c);
+      const double l = eigen.values[c];
       if (l > floor)
         sum += v * v / l;
       else if (std::abs(v) > 1e-6)

@@ -49,7 +49,10 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
       for (Eigen::Index i = 0; i < n; ++i) {
         if (state(i) != At::free || (z[i] >= lower[i] && z[i] <= upper[i])) continue;
         const double reach = ((z[i] < lower[i] ? lower[i] : upper[i]) - x[i]) / (z[i] - x[i]);
-        if (reach < t || hit < 0) t = std::min(t, reach), hit = i;
+        if (reach < t || hit < 0) {
+          t = std::min(t, reach);
+          hit = i;
+        }
       }
       if (hit < 0) {
         x = z;
@@ -69,7 +72,10 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
       if (state(i) == At::free || lower[i] == upper[i]) continue;
       const double size = A.col(i).norm() * residual.norm();
       const double wish = (state(i) == At::lower ? -slope[i] : slope[i]) / (size > 0 ? size : 1);
-      if (wish > 1e-13 && wish > strongest) strongest = wish, leaves = i;
+      if (wish > 1e-13 && wish > strongest) {
+        strongest = wish;
+        leaves = i;
+      }
     }
     if (leaves < 0) return x;
     state(leaves) = At::free;

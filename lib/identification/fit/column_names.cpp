@@ -104,9 +104,17 @@ std::vector<std::string> words_of(const std::string& heading) {
       finish();
     }
     if (!is_separator(c)) {
-      word += c < 128 ? static_cast<char>(std::tolower(c)) : letter;
+      if (c < 128) {
+        word += static_cast<char>(std::tolower(c));
+      } else {
+        word += letter;
+      }
     }
-    before = c < 128 ? c : static_cast<unsigned char>(' ');
+    if (c < 128) {
+      before = c;
+    } else {
+      before = static_cast<unsigned char>(' ');
+    }
   }
   finish();
   return words;

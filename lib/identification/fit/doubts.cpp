@@ -16,7 +16,8 @@ struct Reach {
 };
 
 double strain_of(const Test& test, double value) {
-  return test.kind == TestKind::simple_shear ? value : value - 1;
+  if (test.kind == TestKind::simple_shear) return value;
+  return value - 1;
 }
 
 Reach reach(const Test& test) {
@@ -52,8 +53,13 @@ void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) 
 
 void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) {
   constexpr double at_rest = 0.01, offset = 0.1, back = 0.05;
-  const double first = strain_of(test, test.first[0]),
-               z = test.second.empty() ? 0 : test.second[0] - 1;
+  const double first = strain_of(test, test.first[0]);
+  double z = 0;
+  if (test.second.empty()) {
+    z = 0;
+  } else {
+    z = test.second[0] - 1;
+  }
   if (std::abs(first) < at_rest * r.strain && std::abs(z) < at_rest * r.strain &&
       std::abs(test.stress_x[0]) > offset * r.stress)
     all.push_back(fmt::format(
@@ -98,8 +104,14 @@ std::vector<std::string> doubts(const std::vector<Test>& tests) {
     add_units(all, test, r);
     add_shape(all, test, r);
     if (!(r.strain > 0) || !(r.stress > 0)) continue;
-    if (!softest || r.secant() < low) softest = &test, low = r.secant();
-    if (!stiffest || r.secant() > high) stiffest = &test, high = r.secant();
+    if (!softest || r.secant() < low) {
+      softest = &test;
+      low = r.secant();
+    }
+    if (!stiffest || r.secant() > high) {
+      stiffest = &test;
+      high = r.secant();
+    }
   }
   // skin along and across its fibres differs by some ten
   constexpr double most_ratio = 300;

@@ -7,7 +7,8 @@ namespace langer {
 
 double difference(const LeastSquares& problem, Eigen::Index parameter, double a, double b) {
   const double period = problem.period_of(parameter);
-  return period > 0 ? std::remainder(b - a, period) : b - a;
+  if (period > 0) return std::remainder(b - a, period);
+  return b - a;
 }
 
 double into_box(double x, double period, double lower, double upper) {
@@ -19,13 +20,16 @@ double into_box(double x, double period, double lower, double upper) {
 SymmetricAngles symmetric_angles(const LeastSquares& q, const LeastSquaresResult& best,
                                  double deviation, const std::vector<double>& turn) {
   SymmetricAngles s{std::vector<bool>(static_cast<std::size_t>(best.p.size()), false), best.J};
-  VecX p = best.p, above, below;
+  VecX p = best.p;
+  VecX above;
+  VecX below;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     const double period = turn[static_cast<std::size_t>(i)];
     if (!(period > 0) || best.at_bound[static_cast<std::size_t>(i)]) continue;
-    const double slope = best.J.col(i).norm(), widest = period / 9;
-    const double h =
-        slope > 0 ? std::clamp(1.96 * deviation / slope, 1e-5 * period, widest) : widest;
+    const double slope = best.J.col(i).norm();
+    const double widest = period / 9;
+    double h = widest;
+    if (slope > 0) h = std::clamp(1.96 * deviation / slope, 1e-5 * period, widest);
     p[i] = best.p[i] + h;
     const bool up = q.residual(p, above) && above.allFinite();
     p[i] = best.p[i] - h;

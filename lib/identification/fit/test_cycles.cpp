@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "identification/fit/test_range.hpp"
 
 namespace langer {
@@ -19,7 +20,8 @@ struct BranchRange {
 
 // Rest is a strain of 0: loading leads to the side that the test reaches farther.
 std::vector<BranchRange> branches(const Test& test) {
-  const double rest = test.kind == TestKind::simple_shear ? 0 : 1;
+  double rest = 1;
+  if (test.kind == TestKind::simple_shear) rest = 0;
   const auto [least, most] = std::minmax_element(test.first.begin(), test.first.end());
   const bool upwards = std::abs(*most - rest) >= std::abs(*least - rest);
 
@@ -99,7 +101,7 @@ void keep_cycles(Test& test, const TestCycles& choice, const std::string& file) 
     throw Failure(Exit::input, {{file, 0, 0},
                                 skipped > 0 ? "skip_cycles" : "branch",
                                 fmt::format("found {} loading branches in {}", cycles.size(),
-                                            test.name.empty() ? "the test" : test.name),
+                                            text_or(test.name, "the test")),
                                 fmt::format("more than {}", skipped),
                                 "turns by less than 3 % of the range of the strain are noise"});
   }

@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/measured_units.hpp"
+#include "core/base/text.hpp"
 #include "identification/fit/test_cycles.hpp"
 #include "identification/fit/test_range.hpp"
 #include "identification/fit/test_signs.hpp"
@@ -70,7 +71,7 @@ struct Reading {
   }
   std::string all_names() const {
     std::string all;
-    for (const CsvCell& cell : table.header.cells) all += (all.empty() ? "" : ", ") + cell.text;
+    for (const CsvCell& cell : table.header.cells) append(all, ", ", cell.text);
     return all;
   }
 
@@ -364,10 +365,16 @@ struct Reading {
     const std::size_t before = errors.size();
     const double e = number(row, axis.strain) * axis.strain_factor;
     if (format.like.kind == TestKind::simple_shear) return e;
-    const double l = axis.measure == StrainMeasure::stretch          ? e
-                     : axis.measure == StrainMeasure::engineering    ? 1 + e
-                     : axis.measure == StrainMeasure::green_lagrange ? std::sqrt(1 + 2 * e)
-                                                                     : std::exp(e);
+    double l = 0;
+    if (axis.measure == StrainMeasure::stretch) {
+      l = e;
+    } else if (axis.measure == StrainMeasure::engineering) {
+      l = 1 + e;
+    } else if (axis.measure == StrainMeasure::green_lagrange) {
+      l = std::sqrt(1 + 2 * e);
+    } else {
+      l = std::exp(e);
+    }
     if (errors.size() > before) return 1;
     if (l > 0 && std::isfinite(l)) return l;
     // where one stretch is impossible those behind it are so for the same reason
@@ -396,7 +403,7 @@ struct Reading {
       return;
     }
     std::string all;
-    for (const std::string& label : table.blocks) all += (all.empty() ? "" : ", ") + label;
+    for (const std::string& label : table.blocks) append(all, ", ", label);
     say(table.header.line, 1, "block", "no block \"" + format.block + "\"",
         table.blocks.size() > 1 ? "one of " + all
                                 : "a file in which the line of names is repeated");
@@ -408,10 +415,11 @@ struct Reading {
   // The heading, the line of units or the key says the unit; none of them: seconds.
   void add_time(std::size_t column) {
     time_column = column;
-    const std::string below = column < table.units.size() ? table.units[column] : "";
+    std::string below;
+    if (column < table.units.size()) below = table.units[column];
     const std::string text = time_unit_text(name(column), below);
     const auto unit = measured_unit(text);
-    const bool is_time = unit && unit->quantity == Quantity::time;
+    const bool is_time = unit && unit->quantity == UnitKind::time;
     if (format.time_unit) {
       time_factor = factor(*format.time_unit);
       if (is_time && unit->factor != time_factor) {
@@ -481,7 +489,7 @@ std::vector<RowGroup> groups_of_rows(const Reading& in, const std::optional<std:
     if (!in.chosen(row)) continue;
     std::string name;
     if (in.several_blocks()) name = block_name(in.table, row.block);
-    if (split) name += (name.empty() ? "" : "_") + row.cells[*split].text;
+    if (split) append(name, "_", row.cells[*split].text);
     const auto found = std::find_if(groups.begin(), groups.end(),
                                     [&](const RowGroup& group) { return group.name == name; });
     if (found != groups.end()) {
@@ -620,7 +628,12 @@ void finish(Test& test, const Reading& in, bool along_second) {
   if (step.is_given()) {
     add_step(test, step, file);
   } else if (f.viscous && starts_loaded(test)) {
-    const double first_time = test.before.time.empty() ? test.time[0] : test.before.time[0];
+    double first_time = 0;
+    if (test.before.time.empty()) {
+      first_time = test.time[0];
+    } else {
+      first_time = test.before.time[0];
+    }
     throw Failure(
         Exit::input,
         {{file, in.table.header.line, 1},
@@ -742,7 +755,8 @@ std::vector<Test> read_tests(const std::string& path, const TestFormat& format) 
 
 double engineering_strain(double stretch) {
   constexpr double digits = 1e15;
-  return std::abs(stretch) < 8 ? std::round((stretch - 1) * digits) / digits : stretch - 1;
+  if (std::abs(stretch) < 8) return std::round((stretch - 1) * digits) / digits;
+  return stretch - 1;
 }
 
 double largest_stress(const Test& test) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 
 namespace langer {
 
@@ -21,14 +22,22 @@ std::array<std::vector<double>*, 5> lists(Test& test) {
 // The body at the stretch l0 is the new one at rest: P l is the force over its area, S l^2 too.
 void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches,
               std::vector<double>& stresses) {
-  const double area = measure == StressMeasure::nominal        ? l0
-                      : measure == StressMeasure::second_piola ? l0 * l0
-                                                               : 1;
+  double area = 0;
+  if (measure == StressMeasure::nominal) {
+    area = l0;
+  } else if (measure == StressMeasure::second_piola) {
+    area = l0 * l0;
+  } else {
+    area = 1;
+  }
   for (double& l : stretches) l /= l0;
   for (double& s : stresses) s *= area;
 }
 
-double at_rest(const Test& test) { return test.kind == TestKind::simple_shear ? 0 : 1; }
+double at_rest(const Test& test) {
+  if (test.kind == TestKind::simple_shear) return 0;
+  return 1;
+}
 
 }  // namespace
 
@@ -54,14 +63,20 @@ void shift_to_toe(Test& test, double toe, const std::string& file) {
   while (k < test.points() && test.stress_x[k] < toe) ++k;
   if (k == test.points())
     throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe,
-                            test.name.empty() ? "the test" : test.name),
+                            text_or(test.name, "the test")),
                 "less");
   const auto at_toe = [&](const std::vector<double>& l) {
     if (k == 0) return l[0];
     const double s = (toe - test.stress_x[k - 1]) / (test.stress_x[k] - test.stress_x[k - 1]);
     return l[k - 1] + s * (l[k] - l[k - 1]);
   };
-  const double x0 = at_toe(test.first), z0 = test.second.empty() ? x0 : at_toe(test.second);
+  const double x0 = at_toe(test.first);
+  double z0 = 0;
+  if (test.second.empty()) {
+    z0 = x0;
+  } else {
+    z0 = at_toe(test.second);
+  }
   refer_to(x0, test.measure, test.first, test.stress_x);
   // pure shear holds z, an equibiaxial test pulls it alike
   refer_to(test.kind == TestKind::pure_shear ? 1 : z0, test.measure, test.second, test.stress_z);
@@ -81,7 +96,13 @@ void shift_to_start(Test& test) {
   for (auto* stresses : {&test.stress_x, &test.stress_z})
     if (!stresses->empty())
       for (const double at_rest = mean(*stresses); double& s : *stresses) s -= at_rest;
-  const double x0 = mean(test.first), z0 = test.second.empty() ? x0 : mean(test.second);
+  const double x0 = mean(test.first);
+  double z0 = 0;
+  if (test.second.empty()) {
+    z0 = x0;
+  } else {
+    z0 = mean(test.second);
+  }
   if (test.kind == TestKind::simple_shear) {
     for (double& g : test.first) g -= x0;
     return;
@@ -92,8 +113,12 @@ void shift_to_start(Test& test) {
 
 void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
   keep_points(test, [&](std::size_t i) {
-    const double strain =
-        test.kind == TestKind::simple_shear ? along[i] : engineering_strain(along[i]);
+    double strain = 0;
+    if (test.kind == TestKind::simple_shear) {
+      strain = along[i];
+    } else {
+      strain = engineering_strain(along[i]);
+    }
     return strain >= from && strain <= to;
   });
 }
@@ -166,13 +191,27 @@ bool starts_loaded(const Test& test) {
   if (test.time.empty()) {
     return false;
   }
-  const double first_time = has_history ? test.before.time.front() : test.time.front();
-  const double first = has_history ? test.before.first.front() : test.first.front();
+  double first_time = 0;
+  if (has_history) {
+    first_time = test.before.time.front();
+  } else {
+    first_time = test.time.front();
+  }
+  double first = 0;
+  if (has_history) {
+    first = test.before.first.front();
+  } else {
+    first = test.first.front();
+  }
   double reach = 0;
   for (const double x : test.first) reach = std::max(reach, std::abs(x - at_rest(test)));
   const double part = std::abs(first - at_rest(test)) / std::max(reach, 1e-300);
-  const double stress =
-      has_history ? 1 : std::abs(test.stress_x.front()) / std::max(largest_stress(test), 1e-300);
+  double stress = 0;
+  if (has_history) {
+    stress = 1;
+  } else {
+    stress = std::abs(test.stress_x.front()) / std::max(largest_stress(test), 1e-300);
+  }
   constexpr double loaded = 0.05;
   return first_time != 0 && part > loaded && stress > loaded;
 }

@@ -14,7 +14,8 @@ namespace langer {
 namespace {
 
 double strain_of(const Test& test, double deformation) {
-  return test.kind == TestKind::simple_shear ? deformation : deformation - 1;
+  if (test.kind == TestKind::simple_shear) return deformation;
+  return deformation - 1;
 }
 
 // Stress times strain of every point, summed over the axes that work.
@@ -57,9 +58,12 @@ void check_signs(const Test& test, const std::string& file) {
     return;
   }
   const bool shear = test.kind == TestKind::simple_shear;
-  const std::string deformation =
-      shear ? fmt::format("an amount of shear of {:g}", test.first[example])
-            : fmt::format("a stretch of {:g}", test.first[example]);
+  std::string deformation;
+  if (shear) {
+    deformation = fmt::format("an amount of shear of {:g}", test.first[example]);
+  } else {
+    deformation = fmt::format("a stretch of {:g}", test.first[example]);
+  }
   throw Failure(
       Exit::input,
       {{file, 0, 0},
@@ -96,7 +100,8 @@ bool only_tension(const Test& test) {
   const double largest = largest_stress(test);
   double reach = 0;
   for (const double x : test.first) reach = std::max(reach, std::abs(strain_of(test, x)));
-  const double rest = test.kind == TestKind::simple_shear ? 0 : 1;
+  double rest = 1;
+  if (test.kind == TestKind::simple_shear) rest = 0;
   return !below(test.first, rest - 0.05 * reach) && !below(test.stress_x, -0.05 * largest);
 }
 

@@ -14,9 +14,12 @@ namespace {
 
 // what judges a result, and is not asked for here
 SolveConfig without_judgement(SolveConfig config) {
-  config.accuracy.reset(), config.fidelity.reset(), config.estimate.reset(),
-      config.truncation.clear();
-  config.stability = StabilityCheck::off, config.on_unstable = OnUnstable::warn,
+  config.accuracy.reset();
+  config.fidelity.reset();
+  config.estimate.reset();
+  config.truncation.clear();
+  config.stability = StabilityCheck::off;
+  config.on_unstable = OnUnstable::warn;
   config.reduce = Reduce::none;
   config.homogeneous = Homogeneous::off;
   return config;
@@ -94,7 +97,8 @@ ForwardRun::ForwardRun(SolveConfig config, Where where, double fibre_angle)
       mesh_(std::make_shared<const Mesh>(body_mesh(config_, "", where_))) {}
 
 void ForwardRun::observe(std::vector<Observation> observations, std::vector<double> stops) {
-  observations_ = std::move(observations), stops_ = std::move(stops);
+  observations_ = std::move(observations);
+  stops_ = std::move(stops);
 }
 
 SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
@@ -111,8 +115,10 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   SolveConfig config = config_at(input);
   std::vector<std::size_t> asked;  // those that this scene has
   for (std::size_t k = 0; k < input.slopes.size(); ++k)
-    if (!is_friction_of_another(input.slopes[k], config))
-      asked.push_back(k), config.sensitivity.push_back(input.slopes[k]);
+    if (!is_friction_of_another(input.slopes[k], config)) {
+      asked.push_back(k);
+      config.sensitivity.push_back(input.slopes[k]);
+    }
   Run run(*mesh_, config, config.material, where_);
   std::optional<Sensitivity> sensitivity;
   if (!asked.empty()) sensitivity.emplace(run, config, where_);

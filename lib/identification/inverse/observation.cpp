@@ -25,13 +25,18 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
   };
   for (int i = 0; i < 20; ++i) {
     const auto N = shapes();
-    Vec3 x = Vec3::Zero(), along_a = Vec3::Zero(), along_b = Vec3::Zero();
+    Vec3 x = Vec3::Zero();
+    Vec3 along_a = Vec3::Zero();
+    Vec3 along_b = Vec3::Zero();
     const std::array<double, 4> Na{-0.25 * (1 - b), 0.25 * (1 - b), 0.25 * (1 + b),
                                    -0.25 * (1 + b)};
     const std::array<double, 4> Nb{-0.25 * (1 - a), -0.25 * (1 + a), 0.25 * (1 + a),
                                    0.25 * (1 - a)};
-    for (std::size_t k = 0; k < 4; ++k)
-      x += N[k] * corner[k], along_a += Na[k] * corner[k], along_b += Nb[k] * corner[k];
+    for (std::size_t k = 0; k < 4; ++k) {
+      x += N[k] * corner[k];
+      along_a += Na[k] * corner[k];
+      along_b += Nb[k] * corner[k];
+    }
     miss = place - x;
     if (in_plan) miss[1] = along_a[1] = along_b[1] = 0;
     Eigen::Matrix<double, 3, 2> A;
@@ -39,7 +44,8 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
     const Eigen::Matrix2d normal = A.transpose() * A;
     if (!(normal.determinant() > 1e-14 * normal.squaredNorm())) return std::nullopt;
     const Eigen::Vector2d d = normal.inverse() * (A.transpose() * miss);
-    a = std::clamp(a + d[0], -1.5, 1.5), b = std::clamp(b + d[1], -1.5, 1.5);
+    a = std::clamp(a + d[0], -1.5, 1.5);
+    b = std::clamp(b + d[1], -1.5, 1.5);
     if (d.norm() < 1e-12) break;
   }
   constexpr double edge = 1 + 1e-6;
@@ -61,9 +67,10 @@ double Observation::value(const StepRecord& whole,
                           const std::vector<RigidContact>& contacts) const {
   if (of == Of::travel) return whole.scalars.at("travel_" + contact);
   if (of != Of::force) return sum(whole);
-  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact),
-             way = way_of(contact, whole, contacts);
-  return way.norm() > 0 ? -force.dot(way.normalized()) : force.norm();
+  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact);
+  const Vec3 way = way_of(contact, whole, contacts);
+  if (way.norm() > 0) return -force.dot(way.normalized());
+  return force.norm();
 }
 
 double Observation::slope(const StepRecord& whole, const StepRecord& derivative,
@@ -93,7 +100,8 @@ bool find_place(const Mesh& mesh, const Vec3& place, Observation& found) {
       const auto N =
           weights_in(corner, in_plan ? Vec3(place[0], 0, place[2]) : place, in_plan, tolerance);
       if (!N) continue;
-      found.nodes.assign(quad.begin(), quad.end()), found.weights.assign(N->begin(), N->end());
+      found.nodes.assign(quad.begin(), quad.end());
+      found.weights.assign(N->begin(), N->end());
       return true;
     }
   return false;

@@ -40,11 +40,14 @@ VecX drawn(const FitRecord& fit, int number) {
 
 std::string why_no_samples(const MaterialFile& file, int number) {
   if (!file.fit) return "no fit";
-  if (file.fit->sets.rows() > 0)
-    return number <= file.fit->sets.rows() ? "" : fmt::format("{} sets", file.fit->sets.rows());
-  return with_variance(*file.fit).empty()
-             ? "a fit that does not tell how well its parameters are known"
-             : "";
+  if (file.fit->sets.rows() > 0) {
+    if (number <= file.fit->sets.rows()) return "";
+    return fmt::format("{} sets", file.fit->sets.rows());
+  }
+  if (with_variance(*file.fit).empty()) {
+    return "a fit that does not tell how well its parameters are known";
+  }
+  return "";
 }
 
 ParameterSample sample_of(const MaterialFile& file, int number) {

@@ -20,7 +20,8 @@ struct Bytes {
     text += value;
   }
   void put(const MatX& m) {
-    put(m.rows()), put(m.cols());
+    put(m.rows());
+    put(m.cols());
     text.append(reinterpret_cast<const char*>(m.data()),
                 sizeof(double) * static_cast<std::size_t>(m.size()));
   }
@@ -33,12 +34,14 @@ struct Bytes {
   }
   std::string get_text() {
     const auto n = get<std::size_t>();
-    std::string value = at <= text.size() ? text.substr(at, n) : "";
+    std::string value;
+    if (at <= text.size()) value = text.substr(at, n);
     at += n;
     return value;
   }
   MatX get_matrix() {
-    const auto rows = get<Eigen::Index>(), columns = get<Eigen::Index>();
+    const auto rows = get<Eigen::Index>();
+    const auto columns = get<Eigen::Index>();
     MatX m(rows, columns);
     const std::size_t size = sizeof(double) * static_cast<std::size_t>(m.size());
     if (at + size <= text.size()) std::memcpy(m.data(), text.data() + at, size);
@@ -49,9 +52,12 @@ struct Bytes {
 
 std::string written(const std::string& key, const ForwardPath& path) {
   Bytes bytes;
-  bytes.put(key), bytes.put(path.complete), bytes.put(path.why);
+  bytes.put(key);
+  bytes.put(path.complete);
+  bytes.put(path.why);
   bytes.put(MatX(Eigen::Map<const VecX>(path.t.data(), static_cast<Eigen::Index>(path.t.size()))));
-  bytes.put(path.values), bytes.put(path.slopes.size());
+  bytes.put(path.values);
+  bytes.put(path.slopes.size());
   for (const MatX& slope : path.slopes) bytes.put(slope);
   return bytes.text;
 }
@@ -61,7 +67,8 @@ std::pair<std::string, ForwardPath> read(std::string text) {
   std::pair<std::string, ForwardPath> found;
   found.first = bytes.get_text();
   ForwardPath& path = found.second;
-  path.complete = bytes.get<bool>(), path.why = bytes.get_text();
+  path.complete = bytes.get<bool>();
+  path.why = bytes.get_text();
   const MatX t = bytes.get_matrix();
   path.t.assign(t.data(), t.data() + t.size());
   path.values = bytes.get_matrix();
@@ -77,7 +84,8 @@ RunCache::RunCache(const std::string& journal) {
   journal_ = std::make_unique<Journal>(journal);
   while (auto record = journal_->next()) {
     auto [key, path] = read(std::move(*record));
-    paths_[key] = std::make_shared<const ForwardPath>(std::move(path)), ++read_back_;
+    paths_[key] = std::make_shared<const ForwardPath>(std::move(path));
+    ++read_back_;
   }
 }
 

@@ -28,9 +28,12 @@ struct Setting {
 std::vector<Setting> settings_of(const CandidateChoice& choice) {
   std::vector<Setting> all{{}};
   for (const CandidateValues& one : choice.vary) {
-    const std::string name = one.key.find("to[") != std::string::npos
-                                 ? one.key
-                                 : one.key.substr(one.key.find_last_of('.') + 1);
+    std::string name;
+    if (one.key.find("to[") != std::string::npos) {
+      name = one.key;
+    } else {
+      name = one.key.substr(one.key.find_last_of('.') + 1);
+    }
     std::vector<Setting> longer;
     for (const Setting& before : all)
       for (const double value : one.values) {
@@ -84,8 +87,10 @@ class SceneOf {
   std::optional<std::string> friction_of(std::size_t i) const {
     const auto number =
         problem_.free[i].of_law() ? std::nullopt : scene_number(config_, problem_.free[i].key);
-    return number && number->of == SceneNumber::Of::friction ? std::optional(number->contact)
-                                                             : std::nullopt;
+    if (number && number->of == SceneNumber::Of::friction) {
+      return std::optional(number->contact);
+    }
+    return std::nullopt;
   }
 
   Loaded<SolveConfig> scene(const Setting& setting, double& angle) const {
@@ -125,7 +130,7 @@ class SceneOf {
     };
     for (const SceneQuantity quantity : choice_.measured) {
       Observation one;
-      if (quantity == SceneQuantity::force) {
+      if (quantity == SceneUnitKind::force) {
         if (run.config().contacts.empty())
           refuse_scene(where_, at_ + "measured", "force, of a scene without indenters",
                        "a reaction");
@@ -164,17 +169,23 @@ class SceneOf {
       const FreeParameter& p = problem_.free[i];
       const auto k = static_cast<Eigen::Index>(i);
       const auto friction = friction_of(i);
-      if (p.of_law() || (friction && scene.contacts.count(*friction)))
-        by.keys.push_back(p.key), by.of.push_back({k, 1});
+      if (p.of_law() || (friction && scene.contacts.count(*friction))) {
+        by.keys.push_back(p.key);
+        by.of.push_back({k, 1});
+      }
       for (const Tie& tie : problem_.ties)
-        if (tie.of == p.key) by.keys.push_back(tie.key), by.of.push_back({k, tie.factor});
+        if (tie.of == p.key) {
+          by.keys.push_back(tie.key);
+          by.of.push_back({k, tie.factor});
+        }
     }
     return by;
   }
 
   // The states of the path count as many values as would be measured.
   MatX weighted(const ForwardPath& path, const Slopes& by) const {
-    const Eigen::Index states = path.values.rows(), observations = path.values.cols();
+    const Eigen::Index states = path.values.rows();
+    const Eigen::Index observations = path.values.cols();
     const double count =
         std::sqrt(static_cast<double>(choice_.points) / static_cast<double>(states));
     const Eigen::Index of_each =
@@ -211,9 +222,10 @@ std::vector<Wanted> wanted_of(const FitConfig& config) {
   for (std::size_t i = 0; i < config.study->candidates.size(); ++i) {
     const CandidateChoice& choice = config.study->candidates[i];
     if (choice.kind != DataKind::scene) continue;
-    const std::string name = choice.name.empty()
-                                 ? std::filesystem::path(choice.solve.path).stem().string()
-                                 : choice.name;
+    std::string name = choice.name;
+    if (choice.name.empty()) {
+      name = std::filesystem::path(choice.solve.path).stem().string();
+    }
     for (const Setting& setting : settings_of(choice))
       all.push_back({i, setting, setting.words.empty() ? name : name + ", " + setting.words});
   }
@@ -257,7 +269,8 @@ SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& prob
     Candidate& one = out.candidates.back();
     MatX both(one.J.rows() + J[i]->rows(), one.J.cols());
     both << one.J, *J[i];
-    one.J = both, one.name += " and " + wanted[i].setting.words;
+    one.J = both;
+    one.name += " and " + wanted[i].setting.words;
   }
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "core/base/csv_table.hpp"
 #include "core/base/measured_units.hpp"
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -17,24 +18,24 @@ namespace langer {
 
 namespace {
 
-Quantity quantity_of(const std::string& unit) {
-  if (unit == "mm") return Quantity::length;
-  if (unit == "N") return Quantity::force;
-  if (unit == "MPa") return Quantity::stress;
-  if (unit == "s") return Quantity::time;
-  return Quantity::ratio;
+UnitKind quantity_of(const std::string& unit) {
+  if (unit == "mm") return UnitKind::length;
+  if (unit == "N") return UnitKind::force;
+  if (unit == "MPa") return UnitKind::stress;
+  if (unit == "s") return UnitKind::time;
+  return UnitKind::ratio;
 }
 
 // The unit of a heading: travel_mm, Force (N), "Standardkraft [N]", Extension / mm, t_min. Behind a
 // blank or an underscore h and d are units in columns of times only: u_h is no time.
-std::optional<MeasuredUnit> unit_in_name(const std::string& name, Quantity quantity) {
+std::optional<MeasuredUnit> unit_in_name(const std::string& name, UnitKind quantity) {
   for (const std::string separator : {"[", "(", "/", ",", "_", " "}) {
     const std::size_t at = name.find_last_of(separator);
     if (at == std::string::npos || at + 1 >= name.size()) continue;
     std::string text = name.substr(at + 1);
     std::erase_if(text, [](char c) { return c == ']' || c == ')'; });
     const auto unit = measured_unit(text);
-    if (!unit || unit->quantity == Quantity::ratio) continue;
+    if (!unit || unit->quantity == UnitKind::ratio) continue;
     const bool joined = separator == "_" || separator == " ";
     const bool may_be_index = unit->name == "h" || unit->name == "d" || unit->name == "in";
     if (joined && may_be_index && unit->quantity != quantity) continue;
@@ -45,12 +46,12 @@ std::optional<MeasuredUnit> unit_in_name(const std::string& name, Quantity quant
 
 // Of a column of times the words may be the unit: "Minutes".
 std::optional<MeasuredUnit> unit_of(const std::string& name, const std::string& below,
-                                    Quantity quantity) {
+                                    UnitKind quantity) {
   const auto unit = measured_unit(below);
-  if (unit && unit->quantity != Quantity::ratio) {
+  if (unit && unit->quantity != UnitKind::ratio) {
     return unit;
   }
-  if (quantity == Quantity::time) {
+  if (quantity == UnitKind::time) {
     const auto time = measured_unit(time_unit_text(name, ""));
     if (time) return time;
   }
@@ -107,7 +108,7 @@ std::size_t column_called(const std::vector<std::string>& names, const std::stri
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string near = nearest(wanted, names);
   refuse(at, "columns." + key, "no column \"" + wanted + "\"", "one of " + list_words(names),
-         near.empty() ? "" : "did you mean \"" + near + "\"?");
+         did_you_mean(near));
 }
 
 SceneData from_curves(const FitData& data, const std::string& file) {
@@ -122,7 +123,7 @@ SceneData from_curves(const FitData& data, const std::string& file) {
     const Column& column = curves.curves.columns[column_called(names, name, key, {file})];
     SceneColumn one{key, name, unit_of_column(key), column.values, {file}};
     auto unit = measured_unit(column.unit);
-    if (unit && unit->quantity == Quantity::ratio) unit.reset();
+    if (unit && unit->quantity == UnitKind::ratio) unit.reset();
     const double factor = factor_of(one, unit);
     for (double& value : one.values) value *= factor;
     read.columns.push_back(std::move(one));
@@ -170,7 +171,8 @@ SceneData from_table(const FitData& data, const std::string& file) {
                     unit_of_column(key),
                     {},
                     {file, table.header.line, table.header.cells[at].column}};
-    const std::string below = table.units.empty() ? "" : table.units[at];
+    std::string below = table.units[at];
+    if (table.units.empty()) below = "";
     const double factor = factor_of(one, unit_of(*wanted, below, quantity_of(one.unit)));
     for (const CsvRow* row : rows) {
       const auto number = table.number(row->cells[at]);
@@ -191,7 +193,8 @@ const char* unit_of_column(const std::string& key) {
   if (key == "t") return "-";
   if (key == "time") return "s";
   if (key == "pressure") return "MPa";
-  return key == "force" || key.starts_with("reaction") ? "N" : "mm";
+  if (key == "force" || key.starts_with("reaction")) return "N";
+  return "mm";
 }
 
 const SceneColumn* SceneData::find(const std::string& key) const {
@@ -203,7 +206,11 @@ const SceneColumn* SceneData::find(const std::string& key) const {
 SceneData read_scene_data(const FitData& data, const std::string& file) {
   SceneData read = std::filesystem::path(file).extension() == ".h5" ? from_curves(data, file)
                                                                     : from_table(data, file);
-  read.name = data.name.empty() ? std::filesystem::path(file).stem().string() : data.name;
+  if (data.name.empty()) {
+    read.name = std::filesystem::path(file).stem().string();
+  } else {
+    read.name = data.name;
+  }
   return read;
 }
 

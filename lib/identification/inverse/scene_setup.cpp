@@ -60,7 +60,8 @@ std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const F
     const double room = std::min(behind == kept.end() ? 1 : *behind - t,
                                  behind == kept.begin() ? t : t - *std::prev(behind));
     if (room < needed) continue;
-    stops.push_back(t), kept.insert(t);
+    stops.push_back(t);
+    kept.insert(t);
   }
   return stops;
 }
@@ -85,7 +86,8 @@ SceneTests::SceneTests(const FitConfig& config, const Where& where, const FitPro
       law_(problem),
       cache_(std::move(cache)),
       options_(std::move(options)) {
-  law_.tests.clear(), law_.further.reset();
+  law_.tests.clear();
+  law_.further.reset();
   std::map<std::string, std::size_t> known;
   run_of_.assign(config_.data.size(), 0);
   for (std::size_t i = 0; i < config_.data.size(); ++i)
@@ -151,7 +153,8 @@ void SceneTests::add_tests() {
     if (data.file.path.empty() && next >= files_.size())
       throw Failure(Exit::config, Error{where_(key), key, "missing",
                                         "a measured file, or one given by --curves", ""});
-    const std::string file = data.file.path.empty() ? files_[next++] : data.file.path;
+    std::string file = data.file.path;
+    if (data.file.path.empty()) file = files_[next++];
     const std::size_t run = run_of_[i];
     SceneData read = read_scene_data(data, file);
     if (data.file.path.empty() && data.name.empty()) read.name = fmt::format("scene_{}", i + 1);
@@ -235,7 +238,8 @@ void SceneTests::add_numbers() {
 }
 
 void SceneTests::add_slope(const std::string& key, std::size_t number, double factor) {
-  slopes_.push_back(key), slope_of_.push_back({{number, factor}});
+  slopes_.push_back(key);
+  slope_of_.push_back({{number, factor}});
 }
 
 }  // namespace langer

@@ -27,7 +27,8 @@ std::string travel_of(const RigidContact& contact) { return "travel_" + contact.
 double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force) {
   if (const double length = way.norm(); length > 0) return -d_force.dot(way) / length;
   const double size = force.norm();
-  return size > 0 ? d_force.dot(force) / size : 0;
+  if (size > 0) return d_force.dot(force) / size;
+  return 0;
 }
 
 Vec3 force_on(const StepRecord& record, const std::string& contact) {
@@ -41,7 +42,8 @@ double length_derivative(const StepRecord& whole, const SceneParameter& paramete
   for (int k = 0; k < 3; ++k)
     d[k] = whole.scalars.at(derivative_name(std::string("force_") + "xyz"[k] + "_N", parameter));
   const double size = whole.force_ind.norm();
-  return size > 0 ? d.dot(whole.force_ind) / size : 0;
+  if (size > 0) return d.dot(whole.force_ind) / size;
+  return 0;
 }
 
 double force_derivative(const StepRecord& whole, const StepRecord& derivative) {
@@ -56,7 +58,8 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
       earlier_(last_) {
   StateDerivative rest;
   rest.u = VecX::Zero(last_.u.size());
-  d_last_.assign(parameters().size(), rest), d_earlier_ = d_last_;
+  d_last_.assign(parameters().size(), rest);
+  d_earlier_ = d_last_;
 }
 
 RunListener Sensitivity::along(RunListener listener) {
@@ -119,8 +122,14 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     const Assembler::Forces more = with(h);
     const bool linear = parameters_.linear(i);
     const Assembler::Forces less = linear ? Assembler::Forces{body.f_int(), body.W()} : with(-h);
-    const double width = linear ? h : 2 * h;
-    out[i].f = (more.f - less.f) / width, energies[i] = (more.W - less.W) / width;
+    double width = 0;
+    if (linear) {
+      width = h;
+    } else {
+      width = 2 * h;
+    }
+    out[i].f = (more.f - less.f) / width;
+    energies[i] = (more.W - less.W) / width;
   }
   return out;
 }
@@ -149,14 +158,18 @@ void Sensitivity::advance(const StepRecord& record) {
   of_part_.clear();
   for (std::size_t i = 0; i < d.size(); ++i)
     of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
-  earlier_ = std::move(last_), last_ = run_.statics.accepted();
-  d_earlier_ = std::move(d_last_), d_last_ = std::move(d);
+  earlier_ = std::move(last_);
+  last_ = run_.statics.accepted();
+  d_earlier_ = std::move(d_last_);
+  d_last_ = std::move(d);
 }
 
 StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d,
                                 const VecX& reactions, double energy) const {
   StepRecord out;
-  out.t = record.t, out.u = by_node(d.u), out.reaction = by_node(reactions);
+  out.t = record.t;
+  out.u = by_node(d.u);
+  out.reaction = by_node(reactions);
   out.scalars["energy"] = energy;
   const auto& contacts = run_.statics.contacts();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -189,7 +202,8 @@ StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& 
   const Mesh& point = run_.reduction.mesh();
   const Assembler& mesh = *run_.reduction.mesh_of_point();
   StepRecord out = derivative;
-  out.u.clear(), out.reaction.assign(whole.u.size(), Vec3::Zero());
+  out.u.clear();
+  out.reaction.assign(whole.u.size(), Vec3::Zero());
   for (const std::array<double, 8>& N : run_.reduction.point()->weights()) {
     Vec3& u = out.u.emplace_back(Vec3::Zero());
     for (std::size_t c = 0; c < 8; ++c) u += N[c] * derivative.u[c];
@@ -250,8 +264,10 @@ void Sensitivity::write(StepRecord& whole) const {
 }
 
 void Sensitivity::kept(const StepRecord& whole) {
-  earlier_ = std::move(last_), last_ = run_.reduction.reduced(whole);
-  d_earlier_ = std::move(d_last_), d_last_.clear();
+  earlier_ = std::move(last_);
+  last_ = run_.reduction.reduced(whole);
+  d_earlier_ = std::move(d_last_);
+  d_last_.clear();
   for (const SceneParameter& p : parameters()) {
     StepRecord like = whole;
     like.u = whole.point_fields.at(derivative_name("u", p));

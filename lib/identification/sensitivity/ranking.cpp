@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.hpp"
 #include "core/config/member.hpp"
 
 namespace langer {
@@ -37,7 +38,7 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
       for (const MaterialParameter& k : known) keys.push_back(k.key);
       const std::string near = nearest(p.key, keys);
       say(at + ".key", "the material has no number \"" + p.key + "\"", "one of " + list_words(keys),
-          near.empty() ? "" : "did you mean \"" + near + "\"?");
+          did_you_mean(near));
       continue;
     }
     RankedNumber n{one->name, one->unit, *one->value, 0, 0};

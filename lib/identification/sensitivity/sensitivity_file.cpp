@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.hpp"
 #include "identification/sensitivity/sensitivity_tables.hpp"
 #include "results/store/matrices.hpp"
 
@@ -97,8 +98,8 @@ void write_sensitivity(const std::string& path, const SensitivityRecord& r,
     one.write_scalar("value", p.value, p.unit);
     one.write_scalar("lower", p.lower, p.unit);
     one.write_scalar("upper", p.upper, p.unit);
-    order += (order.empty() ? "" : " ") + p.name;
-    units += (units.empty() ? "" : " ") + effect_unit(p.unit);
+    append(order, " ", p.name);
+    append(units, " ", effect_unit(p.unit));
   }
   parameters.attribute("order", order);
   const auto write_effects = [&](const h5::Group& group, auto&& part) {

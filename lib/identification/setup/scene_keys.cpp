@@ -112,7 +112,8 @@ bool FitConfig::has_scenes() const {
 
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key) {
   if (!config.has_scenes()) return std::nullopt;
-  const std::string contact = "contacts.", friction = ".friction";
+  const std::string contact = "contacts.";
+  const std::string friction = ".friction";
   if (key.starts_with(contact) && key.ends_with(friction) &&
       key.size() > contact.size() + friction.size())
     return SceneNumber{SceneNumber::Of::friction,
@@ -146,7 +147,7 @@ std::vector<Complaint> CandidateChoice::complaints() const {
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool moves = measured[i] >= SceneQuantity::u_x;
     const std::string word = names(measured[i])[static_cast<std::size_t>(measured[i])];
-    if (measured[i] != SceneQuantity::force && on.empty() && !(moves && !places.empty()))
+    if (measured[i] != SceneUnitKind::force && on.empty() && !(moves && !places.empty()))
       all.push_back({moves ? "places" : "on", "missing beside " + word,
                      moves ? "places on the top, or on: a set" : "the set that is held or moved",
                      ""});

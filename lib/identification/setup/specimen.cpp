@@ -55,7 +55,8 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
   std::istringstream in(text);
   std::string yaml;
   int number = 0, opened_at = 0;
-  bool open = false, closed = false;
+  bool open = false;
+  bool closed = false;
   for (std::string line; std::getline(in, line) && !closed;) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
@@ -63,7 +64,8 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
     if (!open && !comment && line.find_first_not_of(" \t\r") != std::string::npos)
       return {};  // the table begins
     if (is_fence(line)) {
-      closed = open, open = true;
+      closed = open;
+      open = true;
       opened_at = closed ? opened_at : number;
       yaml += "\n";
     } else if (open && !comment) {
@@ -92,9 +94,10 @@ void add_what_the_file_says(Tree& item) {
   if (text.empty()) return;
   Tree said = csv_header(text, path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
-  const Tree other = beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place)
-                         ? load_yaml(beside.string())
-                         : Tree{};
+  Tree other = Tree{};
+  if (beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place)) {
+    other = load_yaml(beside.string());
+  }
   if (other.kind != Tree::Kind::null && is_sidecar(other)) {
     if (said.kind == Tree::Kind::map)
       refuse(said.place, "found a header beside " + beside.string(), "one of the two",

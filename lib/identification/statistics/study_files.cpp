@@ -32,14 +32,16 @@ void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
   HeatMap map;
   map.title = "correlation of the parameters";
   map.x_names = map.y_names = r.names;
-  map.values = r.correlation, map.numbers = map.first_row_on_top = true;
+  map.values = r.correlation;
+  map.numbers = map.first_row_on_top = true;
   pictures.draw("correlation", heat_map(map, pictures.look()));
   if (r.profiles.empty()) return;
   Plot plot;
   plot.title = "profiles: one parameter is held, the others follow";
   plot.marks = {{threshold, "95 % interval"}};
   plot.y_most = 4 * threshold;
-  plot.x_label = "change of the parameter (%)", plot.y_label = "rise of chi-square";
+  plot.x_label = "change of the parameter (%)";
+  plot.y_label = "rise of chi-square";
   for (const std::string& name : r.names)
     plot.lines.push_back(
         {"profile_" + name + ".csv", csv_name("change", "percent"), "rise", literal(name)});
@@ -49,9 +51,13 @@ void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
 void draw_stability(Pictures& pictures, const StabilityMap& m) {
   HeatMap plane;
   plane.title = "minimum acoustic eigenvalue; red: strong ellipticity lost";
-  plane.x_label = "stretch along x", plane.y_label = "stretch along z", plane.value_label = "MPa";
-  plane.x_from = plane.y_from = m.stretch.front(), plane.x_to = plane.y_to = m.stretch.back();
-  plane.values = m.plane, plane.zero_line = plane.swap_colours = true;
+  plane.x_label = "stretch along x";
+  plane.y_label = "stretch along z";
+  plane.value_label = "MPa";
+  plane.x_from = plane.y_from = m.stretch.front();
+  plane.x_to = plane.y_to = m.stretch.back();
+  plane.values = m.plane;
+  plane.zero_line = plane.swap_colours = true;
   // logarithmic about its size at rest: neither what is soft nor what is stiff ends in one colour
   Eigen::Index rest = 0;
   for (std::size_t i = 0; i < m.stretch.size(); ++i)
@@ -66,21 +72,24 @@ void draw_stability(Pictures& pictures, const StabilityMap& m) {
 
   HeatMap losses;
   losses.title = "first loss: strain or shear from which the law is unstable";
-  losses.x_label = "angle between fibres and x (°)", losses.losses = true;
+  losses.x_label = "angle between fibres and x (°)";
+  losses.losses = true;
   const auto angles = static_cast<Eigen::Index>(m.angle.size());
   losses.values.resize(2 * static_cast<Eigen::Index>(all_paths.size()), angles);
   for (double a : m.angle) losses.x_names.push_back(fmt::format("{:g}", a));
   for (std::size_t k = 0; k < all_paths.size(); ++k) {
     std::string name = names(Path{})[static_cast<std::size_t>(all_paths[k])];
     std::replace(name.begin(), name.end(), '_', ' ');
-    losses.y_names.push_back(name + ", slope"), losses.y_names.push_back(name + ", ellipt.");
+    losses.y_names.push_back(name + ", slope");
+    losses.y_names.push_back(name + ", ellipt.");
     for (Eigen::Index j = 0; j < angles; ++j) {
       const PathStability& p = m.paths[k * m.angle.size() + static_cast<std::size_t>(j)];
       losses.values(2 * static_cast<Eigen::Index>(k), j) = p.slope_loss;
       losses.values(2 * static_cast<Eigen::Index>(k) + 1, j) = p.ellipticity_loss;
     }
   }
-  losses.limit = m.amount.back(), losses.numbers = losses.first_row_on_top = true;
+  losses.limit = m.amount.back();
+  losses.numbers = losses.first_row_on_top = true;
   pictures.draw("stability_directions", heat_map(losses, pictures.look()));
 }
 
@@ -101,12 +110,15 @@ std::vector<std::string> draw_fit(const std::string& measured_column, const Figu
                                   const std::string& folder) {
   Pictures pictures(folder, style);
   Plot plot;
-  plot.x_label = "strain", plot.y_label = "stress (MPa)", plot.title = "measured and fitted";
+  plot.x_label = "strain";
+  plot.y_label = "stress (MPa)";
+  plot.title = "measured and fitted";
   plot.lines = {{"fit.csv", "strain", measured_column, "measured"},
                 {"fit.csv", "strain", "model_MPa", "model"}};
   plot.lines[0].points = true;  // seen where the model lies on it
   pictures.draw("figure_4", plot);
-  plot.y_label = "error (% of the largest stress)", plot.title = "model less measured";
+  plot.y_label = "error (% of the largest stress)";
+  plot.title = "model less measured";
   plot.lines = {{"fit.csv", "strain", "error_percent", "error"}};
   pictures.draw("figure_5", plot);
   return lines_of(pictures);
@@ -122,13 +134,17 @@ void draw_field(Pictures& pictures, const FittedCurve& curve) {
   FieldMap map;
   map.title = fmt::format("{} at {} = {:g} {}", curve.name, curve.x_name, end,
                           curve.x_unit == "-" ? "" : curve.x_unit);
-  map.x_label = "x (mm)", map.y_label = "z (mm)", map.unit = curve.unit;
+  map.x_label = "x (mm)";
+  map.y_label = "z (mm)";
+  map.unit = curve.unit;
   FieldPanel measured{"measured", {}, 0}, found{"found", {}, 0},
       difference{"found less measured", {}, 0};
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (curve.x[i] != end) continue;
-    map.x.push_back(curve.places[i][0]), map.y.push_back(curve.places[i][2]);
-    measured.values.push_back(curve.measured[i]), found.values.push_back(curve.model[i]);
+    map.x.push_back(curve.places[i][0]);
+    map.y.push_back(curve.places[i][2]);
+    measured.values.push_back(curve.measured[i]);
+    found.values.push_back(curve.model[i]);
     difference.values.push_back(curve.model[i] - curve.measured[i]);
     measured.limit =
         std::max({measured.limit, std::abs(curve.measured[i]), std::abs(curve.model[i])});
@@ -147,19 +163,23 @@ std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves,
                                      const FigureStyle& style, const std::string& folder) {
   Pictures pictures(folder, style);
   for (const FittedCurve& curve : curves) {
-    const std::string file = "fit_" + curve.name + ".csv",
-                      over = curve.places.empty() ? csv_name(curve.x_name, curve.x_unit) : "x_mm";
+    const std::string file = "fit_" + curve.name + ".csv";
+    std::string over = "x_mm";
+    if (curve.places.empty()) over = csv_name(curve.x_name, curve.x_unit);
     Plot plot;
     plot.title = literal(curve.name) + ": measured and found";
-    plot.x_label = curve.places.empty()
-                       ? fmt::format("{} ({})", literal(curve.x_name), curve.x_unit)
-                       : "x (mm)";
+    if (curve.places.empty()) {
+      plot.x_label = fmt::format("{} ({})", literal(curve.x_name), curve.x_unit);
+    } else {
+      plot.x_label = "x (mm)";
+    }
     plot.y_label = fmt::format("{} ({})", literal(curve.quantity), curve.unit);
     plot.lines = {{file, over, csv_name(curve.quantity, curve.unit), "measured"},
                   {file, over, csv_name("model", curve.unit), "found"}};
-    plot.lines[0].points = true, plot.lines[1].points = !curve.places.empty();
+    plot.lines[0].points = true;
+    plot.lines[1].points = !curve.places.empty();
     pictures.draw("fit_" + curve.name, plot);
-    plot.title = literal(curve.name) + ": found less measured",
+    plot.title = literal(curve.name) + ": found less measured";
     plot.y_label = "error (% of the largest)";
     plot.lines = {{file, over, "error_percent", "error"}};
     plot.lines[0].points = !curve.places.empty();
@@ -174,7 +194,8 @@ std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const Figu
   Pictures pictures(folder, style);
   Plot effects;
   effects.title = "one parameter at a time: mean effect over its range";
-  effects.x_label = "strain", effects.y_label = "μ* (MPa)",
+  effects.x_label = "strain";
+  effects.y_label = "μ* (MPa)";
   effects.rows = static_cast<int>(r.strain.size());
   for (const RankedNumber& p : r.parameters)
     effects.lines.push_back(
@@ -185,12 +206,17 @@ std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const Figu
   for (const Zone& z : r.zones)
     b.groups.push_back(fmt::format("strain {:g} to {:g}", z.from, z.to));
   for (const RankedNumber& p : r.parameters) b.series.push_back(p.name);
-  b.title = "effect of each parameter over its range, one at a time", b.y_label = "μ* (MPa)";
+  b.title = "effect of each parameter over its range, one at a time";
+  b.y_label = "μ* (MPa)";
   b.values = over_range(r, zone_means(r.effects.mu_star, r.strain, r.zones));
   pictures.draw("effects_by_zone", bars(b, pictures.look()));
   const auto draw = [&](const std::string& name, const std::string& title, const std::string& unit,
                         const Estimate& e) {
-    b.title = title, b.y_label = unit, b.values = e.value, b.low = e.low, b.high = e.high;
+    b.title = title;
+    b.y_label = unit;
+    b.values = e.value;
+    b.low = e.low;
+    b.high = e.high;
     pictures.draw(name, bars(b, pictures.look()));
   };
   if (r.morris) {

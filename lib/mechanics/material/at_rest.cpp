@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
@@ -25,11 +26,10 @@ std::string at_rest_in_words(const Material& material) {
   if (rest == AtRest::stiff) return "";
   std::string terms;
   for (const MatrixTerm& term : material.matrix)
-    terms += (terms.empty() ? "" : " + ") +
-             std::string(std::visit([](const auto& law) { return law.key; }, term));
+    append(terms, " + ", std::string(std::visit([](const auto& law) { return law.key); }, term));
   return fmt::format("{} at rest: the shear modulus of {} is {:.3g} MPa there",
                      rest == AtRest::unstable ? "unstable" : "no stiffness",
-                     terms.empty() ? "its matrix" : terms,
+                     text_or(terms, "its matrix"),
                      rest == AtRest::unstable ? shear_modulus(material) : 0.);
 }
 
@@ -42,12 +42,12 @@ std::string stiffness_at_rest_cure(const Material& material) {
     *p.value = value + 1;
     const double more = shear_modulus(copy);
     *p.value = value;
-    if (std::abs(more - shear_modulus(copy)) > 1e-9) keys += (keys.empty() ? "" : " or ") + p.key;
+    if (std::abs(more - shear_modulus(copy)) > 1e-9) append(keys, " or ", p.key);
   }
   return fmt::format(
       "{} other than 0, such that the shear modulus is positive; a fit with bounds: admissible takes the least that its "
       "tests can tell",
-      keys.empty() ? "a matrix term" : keys);
+      text_or(keys, "a matrix term"));
 }
 
 }  // namespace langer

@@ -74,7 +74,8 @@ double fibre_stiffness(const Material& material) {
 }
 
 std::string volume_key(const Volume& volume, double bulk_modulus) {
-  const double value = has_d(volume) ? 2 / bulk_modulus : bulk_modulus;
+  double value = bulk_modulus;
+  if (has_d(volume)) value = 2 / bulk_modulus;
   return fmt::format("{}: {:.4g}", key_of(volume), value);
 }
 

@@ -16,7 +16,10 @@ struct BoundingBox {
 // X: at least one
 inline BoundingBox bounding_box(const std::vector<Vec3>& X) {
   BoundingBox b{X.at(0), X.at(0)};
-  for (const Vec3& x : X) b.low = b.low.cwiseMin(x), b.high = b.high.cwiseMax(x);
+  for (const Vec3& x : X) {
+    b.low = b.low.cwiseMin(x);
+    b.high = b.high.cwiseMax(x);
+  }
   return b;
 }
 

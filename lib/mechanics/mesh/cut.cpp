@@ -60,7 +60,10 @@ void CutMesh::close(std::vector<char>& marked) const {
     left.pop_back();
     for (int n : mesh_.cell(e))
       for (int other : cells[n])
-        if (!marked[other] && level_[other] < level_[e]) marked[other] = 1, left.push_back(other);
+        if (!marked[other] && level_[other] < level_[e]) {
+          marked[other] = 1;
+          left.push_back(other);
+        }
   }
 }
 
@@ -94,7 +97,11 @@ void CutMesh::add_children(int e, Mesh& to) {
       const std::array<int, 3> place{i % 3, i / 3 % 3, i / 9};
       if (std::count(place.begin(), place.end(), 1) != ones) continue;
       const std::vector<int> corners = corners_at(cell, place);
-      at[i] = ones == 0 ? corners[0] : middle(corners);
+      if (ones == 0) {
+        at[i] = corners[0];
+      } else {
+        at[i] = middle(corners);
+      }
     }
   for (int child = 0; child < 8; ++child) {
     for (int c = 0; c < 8; ++c) {
@@ -131,7 +138,8 @@ void CutMesh::cut(std::vector<char> marked) {
           parts.push_back({first[f.cell] + child, f.local});
     facets = std::move(parts);
   }
-  mesh_.connectivity = std::move(to.connectivity), mesh_.body = std::move(to.body),
+  mesh_.connectivity = std::move(to.connectivity);
+  mesh_.body = std::move(to.body);
   mesh_.frames = std::move(to.frames);
   level_ = std::move(level);
   find_hanging();
@@ -156,13 +164,18 @@ void CutMesh::find_hanging() {
 }
 
 bool has_part_of(const CutRegion& region, const Mesh& mesh, int e) {
-  Vec3 low = mesh.X[mesh.cell(e)[0]], high = low;
-  for (int n : mesh.cell(e)) low = low.cwiseMin(mesh.X[n]), high = high.cwiseMax(mesh.X[n]);
+  Vec3 low = mesh.X[mesh.cell(e)[0]];
+  Vec3 high = low;
+  for (int n : mesh.cell(e)) {
+    low = low.cwiseMin(mesh.X[n]);
+    high = high.cwiseMax(mesh.X[n]);
+  }
   const double slack = 1e-9 * (high - low).norm();
   for (int k = 0; k < 3; ++k)
     if (high[k] - slack <= region.from[k] || low[k] + slack >= region.to[k]) return false;
   if (!region.round) return true;
-  const Vec3 middle = 0.5 * (region.from + region.to), half = 0.5 * (region.to - region.from);
+  const Vec3 middle = 0.5 * (region.from + region.to);
+  const Vec3 half = 0.5 * (region.to - region.from);
   double sum = 0;  // of the nearest point, in half axes
   for (int k : {0, 2})
     sum += std::pow((std::clamp(middle[k], low[k], high[k]) - middle[k]) / half[k], 2);

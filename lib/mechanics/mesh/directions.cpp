@@ -26,8 +26,10 @@ Vec3 turned(const Vec3& a, double angle_deg, const Mat3& frame) {
 }  // namespace
 
 void Directions::append(std::vector<Vec3> a) {
-  if (stored_.empty() || !same_bits(stored_.back(), a))
-    first_.push_back(n_cells_), stored_.push_back(std::move(a));
+  if (stored_.empty() || !same_bits(stored_.back(), a)) {
+    first_.push_back(n_cells_);
+    stored_.push_back(std::move(a));
+  }
   ++n_cells_;
 }
 
@@ -65,7 +67,8 @@ Directions make_directions(const Mesh& mesh, const std::vector<std::vector<doubl
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const std::size_t body = angles.size() > 1 ? static_cast<std::size_t>(mesh.body[e]) : 0,
                       i = cells_before[body]++;
-    const Mat3 frame = mesh.frames.empty() ? Mat3(Mat3::Identity()) : mesh.frames[e];
+    Mat3 frame = mesh.frames[e];
+    if (mesh.frames.empty()) frame = Mat3(Mat3::Identity());
     const FirstFamily& first = fields.empty() ? no_field : fields[body];
     std::vector<Vec3> a;
     for (double alpha : angles[body])

@@ -55,21 +55,25 @@ void MovingNodes::take(int e, const std::vector<const HangingNode*>& hangs) {
       for (int n : h->of) C(a, slot(n)) += 0.25;
   }
   row_[e] = static_cast<int>(nodes_.size());
-  nodes_.push_back(moves), weights_.push_back(std::move(C));
+  nodes_.push_back(moves);
+  weights_.push_back(std::move(C));
 }
 
 std::span<const int> MovingNodes::of(int e) const {
-  return row_.empty() || row_[e] < 0 ? mesh_.cell(e) : std::span<const int>(nodes_[row_[e]]);
+  if (row_.empty() || row_[e] < 0) return mesh_.cell(e);
+  return std::span<const int>(nodes_[row_[e]]);
 }
 
 const MatX* MovingNodes::weights(int e) const {
-  return row_.empty() || row_[e] < 0 ? nullptr : &weights_[row_[e]];
+  if (row_.empty() || row_[e] < 0) return nullptr;
+  return &weights_[row_[e]];
 }
 
 const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node) {
   const auto at = std::lower_bound(hanging.begin(), hanging.end(), node,
                                    [](const HangingNode& h, int n) { return h.node < n; });
-  return at != hanging.end() && at->node == node ? &*at : nullptr;
+  if (at != hanging.end() && at->node == node) return &*at;
+  return nullptr;
 }
 
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
@@ -92,8 +96,10 @@ std::string hanging_fault(const Mesh& mesh) {
     before = h.node;
     Vec3 middle = Vec3::Zero();
     double size = 0;
-    for (int n : h.of)
-      middle += 0.25 * mesh.X[n], size = std::max(size, (mesh.X[n] - mesh.X[h.of[0]]).norm());
+    for (int n : h.of) {
+      middle += 0.25 * mesh.X[n];
+      size = std::max(size, (mesh.X[n] - mesh.X[h.of[0]]).norm());
+    }
     if (!((middle - mesh.X[h.node]).norm() <= 1e-6 * size))
       return fmt::format("node {}, which is not in the middle of those it hangs on", h.node);
   }

@@ -48,7 +48,8 @@ std::vector<int> sorted(std::vector<int> nodes) {
 
 std::optional<MeshImage> find_image(const Mesh& mesh, const Mat3& turn, const Vec3& centre) {
   MeshImage s{turn, centre, {}, {}};
-  const double size = bounding_box(mesh.X).size().norm(), tolerance = 1e-9 * size;
+  const double size = bounding_box(mesh.X).size().norm();
+  const double tolerance = 1e-9 * size;
   const Places places(mesh.X, size / std::cbrt(static_cast<double>(mesh.X.size())));
   for (const Vec3& X : mesh.X) {
     const int image = places.at(centre + turn * (X - centre), tolerance);

@@ -74,7 +74,10 @@ void turn_cells(Mesh& mesh) {
     double best = -4;
     Mat3 turn;
     for (const Mat3& R : rotations)
-      if (const double along = (edges * R).trace(); along > best + 1e-9) best = along, turn = R;
+      if (const double along = (edges * R).trace(); along > best + 1e-9) {
+        best = along;
+        turn = R;
+      }
     turn_cell(mesh, e, turn);
   }
 }
@@ -107,8 +110,10 @@ void number_in_order(Mesh& mesh) {
   const std::vector<int> nodes = sorted_by_place(mesh.X, unit);
   std::vector<int> number(nodes.size());
   std::vector<Vec3> X;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    number[nodes[i]] = static_cast<int>(i), X.push_back(mesh.X[nodes[i]]);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    number[nodes[i]] = static_cast<int>(i);
+    X.push_back(mesh.X[nodes[i]]);
+  }
   mesh.X = std::move(X);
   for (int& n : mesh.connectivity) n = number[n];
 

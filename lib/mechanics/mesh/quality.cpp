@@ -51,7 +51,11 @@ Quality shapes(const Mesh& mesh, bool of_section) {
   Quality q;
   q.least_jacobian = q.least_scaled_jacobian = q.shortest_edge = infinity;
   const auto notice = [&](double det, int e, const Vec3& xi) {
-    if (det < q.least_jacobian) q.least_jacobian = det, q.at_cell = e, q.at = position(mesh, e, xi);
+    if (det < q.least_jacobian) {
+      q.least_jacobian = det;
+      q.at_cell = e;
+      q.at = position(mesh, e, xi);
+    }
   };
   const ReferenceCell& cell = mesh.cell();
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -68,14 +72,16 @@ Quality shapes(const Mesh& mesh, bool of_section) {
       notice(det, e, cell.gauss[g]);
       q.volume += cell.weight[g] * det;
     }
-    double shortest = infinity, longest = 0;
+    double shortest = infinity;
+    double longest = 0;
     for (const auto& [a, b] : cell.edge) {
       if (of_section && cell.node[a][2] != cell.node[b][2]) continue;
       const double length = (mesh.X[mesh.cell(e)[b]] - mesh.X[mesh.cell(e)[a]]).norm();
-      shortest = std::min(shortest, length), longest = std::max(longest, length);
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
     }
     q.largest_aspect = std::max(q.largest_aspect, shortest > 0 ? longest / shortest : infinity);
-    q.shortest_edge = std::min(q.shortest_edge, shortest),
+    q.shortest_edge = std::min(q.shortest_edge, shortest);
     q.longest_edge = std::max(q.longest_edge, longest);
   }
   return q;

@@ -29,8 +29,13 @@ VecX shape_with_edges(const ReferenceCell& cell, const Vec3& xi) {
   N.head(L.size()) = L;
   for (Eigen::Index n = L.size(); n < N.size(); ++n) {
     const std::vector<int> ends = corners_around(cell, static_cast<std::size_t>(n));
-    const double a = L[ends[0]], b = L[ends[1]];
-    N[n] = cell.hexahedron() ? (a + b > 0 ? 4 * a * b / (a + b) : 0) : 4 * a * b;
+    const double a = L[ends[0]];
+    const double b = L[ends[1]];
+    if (cell.hexahedron()) {
+      N[n] = (a + b > 0 ? 4 * a * b / (a + b) : 0);
+    } else {
+      N[n] = 4 * a * b;
+    }
     for (int end : ends) N[end] -= 0.5 * N[n];
   }
   return N;
@@ -43,7 +48,8 @@ Mesh raised(const std::vector<Vec3>& X, const std::vector<int>& connectivity,
   std::vector<std::vector<int>> between;  // by node of the new cell
   for (std::size_t a = 0; a < cell.node.size(); ++a) between.push_back(corners_around(cell, a));
   Mesh out;
-  out.type = cell.type, out.X = X;
+  out.type = cell.type;
+  out.X = X;
   std::map<std::vector<int>, int> middle_of;  // corners -> node between them
   for (std::size_t first = 0; first < connectivity.size(); first += given) {
     const std::span<const int> nodes(connectivity.data() + first, given);
@@ -114,7 +120,8 @@ void add_new_middles(Mesh& mesh, int first_new) {
 }
 
 Mesh raised(const Mesh& mesh, CellType to) {
-  return to == mesh.type ? mesh : raised(mesh.X, mesh.connectivity, to);
+  if (to == mesh.type) return mesh;
+  return raised(mesh.X, mesh.connectivity, to);
 }
 
 Mesh between_nodes(const Mesh& mesh) {

@@ -10,16 +10,24 @@ namespace langer {
 namespace {
 
 // quadratic Lagrange polynomial of the node at -1, 0 or 1, and its slope
-double lagrange(double node, double x) { return node == 0 ? 1 - x * x : 0.5 * x * (x + node); }
-double slope(double node, double x) { return node == 0 ? -2 * x : x + 0.5 * node; }
+double lagrange(double node, double x) {
+  if (node == 0) return 1 - x * x;
+  return 0.5 * x * (x + node);
+}
+double slope(double node, double x) {
+  if (node == 0) return -2 * x;
+  return x + 0.5 * node;
+}
 
 Vec3 point(const double* x) { return {x[0], x[1], x[2]}; }
 
 template <class Cell>
 ReferenceCell empty_row(const CellNames& names) {
   ReferenceCell cell;
-  cell.type = Cell::type, cell.names = names;
-  cell.n_nodes = Cell::n_nodes, cell.n_gauss = Cell::n_gauss;
+  cell.type = Cell::type;
+  cell.names = names;
+  cell.n_nodes = Cell::n_nodes;
+  cell.n_gauss = Cell::n_gauss;
   cell.shape = [](const Vec3& xi) -> VecX {
     return Cell::shape(xi);
   };
@@ -36,7 +44,8 @@ void add_values(ReferenceCell& cell, VecX (*linear)(const Vec3& xi)) {
   MatX at_gauss(cell.n_gauss, cell.n_corners), at_nodes(cell.n_nodes, cell.n_corners);
   for (int g = 0; g < cell.n_gauss; ++g) {
     const Vec3& xi = cell.gauss[g];
-    cell.N.push_back(cell.shape(xi)), cell.dN.push_back(cell.gradient(xi));
+    cell.N.push_back(cell.shape(xi));
+    cell.dN.push_back(cell.gradient(xi));
     at_gauss.row(g) = linear(xi).transpose();
   }
   for (int a = 0; a < cell.n_nodes; ++a) at_nodes.row(a) = linear(cell.node[a]).transpose();
@@ -54,14 +63,19 @@ int node_at(const ReferenceCell& cell, const Vec3& xi) {
 template <class Cell>
 ReferenceCell hexahedron(const double (*node)[3], double end_weight, const CellNames& names) {
   ReferenceCell cell = empty_row<Cell>(names);
-  cell.n_corners = 8, cell.facet_corners = 4;
+  cell.n_corners = 8;
+  cell.facet_corners = 4;
   cell.corner_shape = [](const Vec3& xi) -> VecX {
     return Hex8::shape(xi);
   };
-  for (int a = 0; a < cell.n_nodes; ++a)
-    cell.node.push_back(point(node[a])), cell.nearest_gauss.push_back(a);
-  for (int g = 0; g < cell.n_gauss; ++g)
-    cell.gauss.push_back(Cell::gauss(g)), cell.weight.push_back(Cell::weight(g));
+  for (int a = 0; a < cell.n_nodes; ++a) {
+    cell.node.push_back(point(node[a]));
+    cell.nearest_gauss.push_back(a);
+  }
+  for (int g = 0; g < cell.n_gauss; ++g) {
+    cell.gauss.push_back(Cell::gauss(g));
+    cell.weight.push_back(Cell::weight(g));
+  }
   add_values(cell, cell.corner_shape);
   const bool second_order = cell.second_order();
   cell.layers = second_order ? 3 : 2;
@@ -104,7 +118,10 @@ ReferenceCell hexahedron(const double (*node)[3], double end_weight, const CellN
 struct Barycentric {
   double L[4];
   explicit Barycentric(const Vec3& xi) : L{1 - xi.sum(), xi[0], xi[1], xi[2]} {}
-  static Vec3 slope(int i) { return i == 0 ? Vec3(-1, -1, -1) : Vec3(Vec3::Unit(i - 1)); }
+  static Vec3 slope(int i) {
+    if (i == 0) return Vec3(-1, -1, -1);
+    return Vec3(Vec3::Unit(i - 1));
+  }
   Vec3 slope_of_product(std::initializer_list<int> of) const {
     Vec3 sum = Vec3::Zero();
     for (int i : of) {
@@ -152,8 +169,14 @@ void add_parts_of_tetrahedron(ReferenceCell& cell) {
   };
   for (int i = 0; i < 4; ++i) {
     const auto [j, k, l] = around[i];
-    middle({i}), middle({i, j}), middle({i, j, k}), middle({i, k});
-    middle({i, l}), middle({i, j, l}), middle({0, 1, 2, 3}), middle({i, k, l});
+    middle({i});
+    middle({i, j});
+    middle({i, j, k});
+    middle({i, k});
+    middle({i, l});
+    middle({i, j, l});
+    middle({0, 1, 2, 3});
+    middle({i, k, l});
   }
 }
 
@@ -161,20 +184,25 @@ void add_parts_of_tetrahedron(ReferenceCell& cell) {
 // arbitrary dimension, 2000); on facets the 7 points of degree 5 (J. Radon, 1948)
 ReferenceCell tetrahedron(const CellNames& names) {
   ReferenceCell cell = empty_row<Tet15>(names);
-  cell.n_corners = 4, cell.facet_corners = 3, cell.layers = 0;
+  cell.n_corners = 4;
+  cell.facet_corners = 3;
+  cell.layers = 0;
   cell.corner_shape = [](const Vec3& xi) -> VecX {
     return Eigen::Vector4d(1 - xi.sum(), xi[0], xi[1], xi[2]);
   };
   const Vec3 corner[4] = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   for (const Vec3& x : corner) cell.node.push_back(x);
-  for (const auto& [a, b] : Tet15::edge)
-    cell.node.push_back((corner[a] + corner[b]) / 2), cell.edge.push_back({a, b});
+  for (const auto& [a, b] : Tet15::edge) {
+    cell.node.push_back((corner[a] + corner[b]) / 2);
+    cell.edge.push_back({a, b});
+  }
   for (const auto& [a, b, c] : Tet15::facet)
     cell.node.push_back((corner[a] + corner[b] + corner[c]) / 3);
   cell.node.push_back(Vec3::Constant(0.25));
 
   const auto add = [&](const Vec3& xi, double weight) {
-    cell.gauss.push_back(xi), cell.weight.push_back(weight / 6);
+    cell.gauss.push_back(xi);
+    cell.weight.push_back(weight / 6);
   };
   for (const auto& [a, weight] : {std::pair{0.31088591926330060980, 0.11268792571801585080},
                                   {0.092735250310891226402, 0.073493043116361949544}})
@@ -207,13 +235,13 @@ ReferenceCell tetrahedron(const CellNames& names) {
     nodes.push_back(10 + f);
     cell.facet.push_back(nodes);
 
-    const Vec3 X[3] = {corner[corners[0]], corner[corners[1]], corner[corners[2]]},
-               middle = cell.node[10 + f];
+    const Vec3 X[3] = {corner[corners[0]], corner[corners[1]], corner[corners[2]]};
+    middle = cell.node[10 + f];
     std::vector<FacetPoint>& points = cell.facet_points.emplace_back();
     points.push_back({middle, 9. / 80, X[1] - X[0], X[2] - X[0]});
     for (double sign : {-1., 1.}) {
-      const double b = (6 + sign * std::sqrt(15.)) / 21,
-                   weight = (155 + sign * std::sqrt(15.)) / 2400;
+      const double b = (6 + sign * std::sqrt(15.)) / 21;
+      const double weight = (155 + sign * std::sqrt(15.)) / 2400;
       for (const Vec3& x : X)
         points.push_back({3 * b * middle + (1 - 3 * b) * x, weight, X[1] - X[0], X[2] - X[0]});
     }
@@ -295,7 +323,8 @@ Hex27::Gradient Hex27::gradient(const Vec3& xi) {
   Gradient dN;
   for (int a = 0; a < 27; ++a)
     for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const int i = (k + 1) % 3;
+      const int j = (k + 2) % 3;
       dN(a, k) =
           slope(node[a][k], xi[k]) * lagrange(node[a][i], xi[i]) * lagrange(node[a][j], xi[j]);
     }

@@ -85,7 +85,13 @@ struct Hex27 {
   static Vec3 gauss(int g) { return std::sqrt(0.6) * Vec3(node[g][0], node[g][1], node[g][2]); }
   static double weight(int g) {
     double w = 1;
-    for (double x : node[g]) w *= x == 0 ? 8. / 9 : 5. / 9;
+    for (double x : node[g]) {
+      if (x == 0) {
+        w *= 8. / 9;
+      } else {
+        w *= 5. / 9;
+      }
+    }
     return w;
   }
 };
@@ -158,7 +164,7 @@ struct ReferenceCell {
       const Vec3& xi);  // shape functions of the corners alone: trilinear, in a tetrahedron linear
   std::vector<std::array<int, 2>> edge;  // its corners
   std::vector<std::vector<int>> facet;   // nodes: the corners counter-clockwise from outside, then
-                                        // middles of edges in that order, then the middle
+                                         // middles of edges in that order, then the middle
   std::vector<std::vector<FacetPoint>> facet_points;
   MatX at_nodes;  // (nodes, Gauss points): the best trilinear (linear in a tetrahedron) field of
                   // Gauss values, taken at the nodes

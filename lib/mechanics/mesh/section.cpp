@@ -38,11 +38,15 @@ std::vector<std::vector<int>> columns(const ReferenceCell& cell) {
 int n_front(const Mesh& mesh) { return mesh.n_nodes() / mesh.cell().layers; }
 
 double cell_share(const Section& section) {
-  return section.of == SectionOf::axisymmetric ? 2 * std::numbers::pi / section.depth : 1;
+  if (section.of == SectionOf::axisymmetric) {
+    return 2 * std::numbers::pi / section.depth;
+  }
+  return 1;
 }
 
 std::vector<Image> section_ties(const Mesh& mesh) {
-  const int n = n_front(mesh), layers = mesh.cell().layers;
+  const int n = n_front(mesh);
+  const int layers = mesh.cell().layers;
   const bool round = mesh.section->of == SectionOf::axisymmetric;
   std::vector<Image> ties;
   for (int i = 0; i < mesh.n_nodes(); ++i) {
@@ -61,9 +65,14 @@ void make_section(Mesh& mesh, const Section& section) {
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (const auto& column : in_cell)
       for (int k = 0; k < layers; ++k) {
-        const int node = mesh.cell(e)[column[k]], first = mesh.cell(e)[column[0]];
-        if (front[first] < 0) front[first] = static_cast<int>(X.size()), X.push_back(mesh.X[first]);
-        front[node] = front[first], layer[node] = k;
+        const int node = mesh.cell(e)[column[k]];
+        const int first = mesh.cell(e)[column[0]];
+        if (front[first] < 0) {
+          front[first] = static_cast<int>(X.size());
+          X.push_back(mesh.X[first]);
+        }
+        front[node] = front[first];
+        layer[node] = k;
       }
   const int n = static_cast<int>(X.size());
   mesh.X.clear();
@@ -77,7 +86,8 @@ void make_section(Mesh& mesh, const Section& section) {
 std::string section_fault(const Mesh& mesh) {
   const Section& section = *mesh.section;
   if (!mesh.cell().hexahedron()) return "cells that are no hexahedra";
-  const int n = n_front(mesh), layers = mesh.cell().layers;
+  const int n = n_front(mesh);
+  const int layers = mesh.cell().layers;
   if (!(section.depth > 0 && std::isfinite(section.depth)))
     return fmt::format("a depth of {}", section.depth);
   if (mesh.n_nodes() != n * layers)
@@ -120,7 +130,8 @@ std::vector<int> in_front(const Mesh& mesh, const std::vector<int>& nodes) {
 
 Mesh as_plate(const Mesh& mesh) {
   Mesh plate = mesh;
-  const int n = n_front(mesh), layers = mesh.cell().layers;
+  const int n = n_front(mesh);
+  const int layers = mesh.cell().layers;
   for (int i = 0; i < mesh.n_nodes(); ++i) plate.X[i][2] = 2.0 * (i / n) / (layers - 1);
   plate.section.reset();
   return plate;
@@ -128,7 +139,8 @@ Mesh as_plate(const Mesh& mesh) {
 
 std::vector<Facet> surface_of(const Mesh& mesh, const std::string& set) {
   const auto found = mesh.facet_sets.find(set);
-  std::vector<Facet> facets = found == mesh.facet_sets.end() ? std::vector<Facet>{} : found->second;
+  std::vector<Facet> facets = found->second;
+  if (found == mesh.facet_sets.end()) facets = std::vector<Facet>{};
   if (mesh.section)
     std::erase_if(facets, [&](const Facet& facet) {
       const std::vector<int> nodes = facet_nodes(mesh, facet);

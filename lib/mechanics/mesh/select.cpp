@@ -15,7 +15,11 @@ namespace {
 
 constexpr double relative_tolerance = 1e-9;
 
-int index(const std::string& axis) { return axis == "x" ? 0 : axis == "y" ? 1 : 2; }
+int index(const std::string& axis) {
+  if (axis == "x") return 0;
+  if (axis == "y") return 1;
+  return 2;
+}
 Vec3 vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace
@@ -37,9 +41,12 @@ std::vector<int> nearest_node(const Mesh& mesh, const NearestNode& nearest,
   int best = -1;
   double least = 0;
   for (int n : among)
-    if (const double distance = (mesh.X[n] - to).norm(); best < 0 || distance < least - tolerance)
-      best = n, least = distance;
-  return best < 0 ? std::vector<int>{} : std::vector<int>{best};
+    if (const double distance = (mesh.X[n] - to).norm(); best < 0 || distance < least - tolerance) {
+      best = n;
+      least = distance;
+    }
+  if (best < 0) return std::vector<int>{};
+  return std::vector<int>{best};
 }
 
 bool holds(const OnPlane& plane, const Vec3& x, double tolerance) {
@@ -90,7 +97,8 @@ std::vector<Facet> boundary(const Mesh& mesh) {
     std::array<int, 4> of = h.of;
     std::sort(of.begin(), of.end());
     if (of[0] == of[1]) continue;  // of an edge
-    by_nodes.erase(of), middles.insert(h.node);
+    by_nodes.erase(of);
+    middles.insert(h.node);
   }
   const auto inside = [&](int node) {
     return middles.count(node) > 0;

@@ -30,7 +30,9 @@ BondStates Bonds::at_rest(const std::vector<Vec3>& X) const {
 }
 
 void Bonds::begin(const BondStates& start, double seconds) {
-  start_ = start, seconds_ = seconds, damping_ = 0;
+  start_ = start;
+  seconds_ = seconds;
+  damping_ = 0;
 }
 
 void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c) {
@@ -41,13 +43,17 @@ void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vecto
       if (!start_[k][i].made) continue;
       const int node = contact.nodes[i];
       const Vec3 v = u.segment<3>(3 * node) - c[k];
-      const double rate = contact.adhesion->viscosity > 0 && seconds_ > 0
-                              ? contact.adhesion->viscosity / seconds_
-                              : 0;
+      double rate = 0;
+      if (contact.adhesion->viscosity > 0 && seconds_ > 0) {
+        rate = contact.adhesion->viscosity / seconds_;
+      }
       Adhesive& now = now_[k][i] = adhesive(*contact.adhesion, shape_at(contact.shape, X[node] + v),
                                             v, start_[k][i], rate + damping_);
       const double area = contact.area[i];
-      now.force *= area, now.tangent *= area, now.stored *= area, now.dissipated *= area;
+      now.force *= area;
+      now.tangent *= area;
+      now.stored *= area;
+      now.dissipated *= area;
     }
   }
 }
@@ -124,7 +130,8 @@ BondStates Bonds::after(const std::vector<std::vector<Vec3>>& r,
     for (std::size_t i = 0; i < now_[k].size(); ++i) {
       Bond& bond = next[k][i];
       if (bond.made) bond.beta = now_[k][i].beta;
-      const bool touches = !r[k][i].isZero(0), came = r_0[k][i].isZero(0);
+      const bool touches = !r[k][i].isZero(0);
+      const bool came = r_0[k][i].isZero(0);
       if (touches && (!bond.made || (came && contacts_[k].adhesion->healing)))
         bond = {1, u.segment<3>(3 * contacts_[k].nodes[i]) - c[k], true};
     }

@@ -39,8 +39,10 @@ ContactInTangent::ContactInTangent(const Assembler& body, const std::vector<Rigi
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (std::size_t i = 0; i < contacts[k].nodes.size(); ++i) {
       Candidate c;
-      c.contact = static_cast<int>(k), c.candidate = static_cast<int>(i),
-      c.node = contacts[k].nodes[i], c.mu = contacts[k].mu;
+      c.contact = static_cast<int>(k);
+      c.candidate = static_cast<int>(i);
+      c.node = contacts[k].nodes[i];
+      c.mu = contacts[k].mu;
       for (int axis = 0; axis < 3; ++axis)
         if (const int row = dofs.equation[3 * c.node + axis]; row >= 0) {
           if (c.n == 0) c.first = row;
@@ -78,13 +80,16 @@ void ContactInTangent::linearise_at(const ContactState& state, bool with_frames)
   for (Candidate& c : candidates_) {
     const auto k = static_cast<std::size_t>(c.contact);
     const Vec3 r = state.r[k][static_cast<std::size_t>(c.candidate)];
-    const Vec3 x = state.X[c.node] + state.u.segment<3>(3 * c.node),
-               x0 = state.X[c.node] + state.u_start[k].segment<3>(3 * c.node);
+    const Vec3 x = state.X[c.node] + state.u.segment<3>(3 * c.node);
+    const Vec3 x0 = state.X[c.node] + state.u_start[k].segment<3>(3 * c.node);
     const LinearisedContact law =
         linearise(state.contacts[k], x, x0, state.c[k], state.c_start[k], r);
-    c.frame = law.frame, c.q = law.q, c.present = law.frame.transpose() * r;
+    c.frame = law.frame;
+    c.q = law.q;
+    c.present = law.frame.transpose() * r;
     if (!with_frames) continue;
-    c.T = law.T, c.D = law.D;
+    c.T = law.T;
+    c.D = law.D;
     own_axes(c);
   }
 }
@@ -93,7 +98,9 @@ void ContactInTangent::linearise_at(const ContactState& state, bool with_frames)
 // contact slip is all that is closed.
 void ContactInTangent::judge(Candidate& c, const Vec3& r, const Vec3& x) const {
   const double A = r[0] - rho_ * x[0];
-  c.status = ContactStatus::open, c.k = 0, c.e.setZero();
+  c.status = ContactStatus::open;
+  c.k = 0;
+  c.e.setZero();
   if (!(A > 0) || c.G(0, 0) < 1e-6) return;
   c.status = ContactStatus::slip;
   if (c.mu == 0) return;
@@ -103,7 +110,8 @@ void ContactInTangent::judge(Candidate& c, const Vec3& r, const Vec3& x) const {
     return;
   }
   const double share = std::min(c.mu * A / s.norm(), 1 - 1e-6);
-  c.e = s.normalized(), c.k = share * rho_ / (1 - share);
+  c.e = s.normalized();
+  c.k = share * rho_ / (1 - share);
 }
 
 void ContactInTangent::turn_own_columns(const Candidate& c, std::vector<double>& values) const {
@@ -160,7 +168,8 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
   is_given.assign(static_cast<std::size_t>(pattern_.n), 0);
   for (const Candidate& c : candidates_) {
     if (c.status == ContactStatus::open) continue;
-    y[c.first] = -c.q[0] / c.G(0, 0), is_given[c.first] = 1;
+    y[c.first] = -c.q[0] / c.G(0, 0);
+    is_given[c.first] = 1;
     if (c.status != ContactStatus::stick || c.n == 1) continue;
     const MatX S = c.T.bottomRightCorner<2, 2>() * c.G.block(1, 1, 2, c.n - 1);
     const Eigen::Vector2d left =
@@ -188,8 +197,13 @@ std::vector<double> ContactInTangent::matrix(bool with_friction, bool with_conta
   given(is_given);
   for (int column = 0; column < pattern_.n; ++column)
     for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
-      if (is_given[column] || is_given[pattern_.row[at]])
-        values[at] = pattern_.row[at] == column ? std::max(std::abs(values[at]), 1e-12) : 0;
+      if (is_given[column] || is_given[pattern_.row[at]]) {
+        if (pattern_.row[at] == column) {
+          values[at] = std::max(std::abs(values[at]), 1e-12);
+        } else {
+          values[at] = 0;
+        }
+      }
   return values;
 }
 
@@ -200,7 +214,8 @@ VecX ContactInTangent::times(const VecX& y) const {
     double sum = K_[at] * y[column];
     for (++at; at < pattern_.column_start[column + 1]; ++at) {
       const int row = pattern_.row[at];
-      out[row] += K_[at] * y[column], sum += K_[at] * y[row];
+      out[row] += K_[at] * y[column];
+      sum += K_[at] * y[row];
     }
     out[column] += sum;
   }
@@ -212,10 +227,12 @@ Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& 
                                  double constants) const {
   if (c.status == ContactStatus::open) return -constants * c.present;
   const auto own = y.segment(c.first, c.n);
-  const Vec3 moved = c.G.leftCols(c.n) * own, follows = c.D * moved;
+  const Vec3 moved = c.G.leftCols(c.n) * own;
+  const Vec3 follows = c.D * moved;
   const VecX left = Ky.segment(c.first, c.n) - constants * rhs_.segment(c.first, c.n);
   if (c.status == ContactStatus::stick) return c.G.leftCols(c.n) * left - follows;
-  Vec3 s = Vec3::Zero(), by_normal(1, 0, 0);
+  Vec3 s = Vec3::Zero();
+  Vec3 by_normal(1, 0, 0);
   s.tail<2>() = -constants * c.present.tail<2>();
   if (c.friction()) {
     const Eigen::Vector2d x_t =
@@ -290,7 +307,8 @@ ContactInTangent::Answer ContactInTangent::answer_of(const Solved& solved,
     if (c.status == ContactStatus::open) continue;
     Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     if (!(r[0] > 0)) continue;
-    const double tangential = r.tail<2>().norm(), most = c.mu * r[0];
+    const double tangential = r.tail<2>().norm();
+    const double most = c.mu * r[0];
     if (tangential > most || (c.friction() && tangential > 0))
       r.tail<2>() *= most / tangential;  // on the cone, exactly
     out.r[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)] = c.frame * r;
@@ -317,9 +335,12 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
     const bool anew = !factored || differ > left_to_gmres;
     if (anew) {
       if (!factorize(matrix(true))) return std::nullopt;
-      factored = true, friction_in_factor_ = false;
-      for (Candidate& c : candidates_)
-        c.factored = c.status, friction_in_factor_ = friction_in_factor_ || c.friction();
+      factored = true;
+      friction_in_factor_ = false;
+      for (Candidate& c : candidates_) {
+        c.factored = c.status;
+        friction_in_factor_ = friction_in_factor_ || c.friction();
+      }
     }
     const bool friction = std::any_of(candidates_.begin(), candidates_.end(),
                                       [](const Candidate& c) { return c.friction(); });

@@ -60,8 +60,8 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
     for (Eigen::Index row = 0; row < d.size(); ++row)
       if (is_given[static_cast<std::size_t>(row)]) d[row] = 0;
   };
-  const VecX f = missing(at.y, at.Ky, 1, is_given),
-             g = mixed.known_strain() - solver.gather(b, at.y);
+  const VecX f = missing(at.y, at.Ky, 1, is_given);
+  const VecX g = mixed.known_strain() - solver.gather(b, at.y);
   const VecX diagonal = solver.diagonal_of(K_);
   const auto product = [&](const VecX& d, const VecX& q, VecX& of_f, VecX& of_g) {
     VecX own = d;

@@ -19,12 +19,14 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
   std::vector<Near> near;
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const RigidContact& contact = state.contacts[k];
-    const Vec3 c = state.c[k], c0 = state.c_start[k];
-    const double further = static_cast<int>(k) == state.controlled ? travel : 0;
+    const Vec3 c = state.c[k];
+    const Vec3 c0 = state.c_start[k];
+    double further = 0;
+    if (static_cast<int>(k) == state.controlled) further = travel;
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const int node = contact.nodes[i];
-      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node),
-                 x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
+      const Vec3 x = state.X[node] + state.u.segment<3>(3 * node);
+      const Vec3 x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
       Vec3 d = Vec3::Zero();
       for (int j = 0; j < 3; ++j) {
         const int row = factor.last_of(3 * node + j);
@@ -49,8 +51,8 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
 
 Condensed condensed(const ContactState& state, const TangentFactor& factor,
                     const std::vector<Near>& near) {
-  const auto m = static_cast<Eigen::Index>(near.size()),
-             n_last = static_cast<Eigen::Index>(factor.last().size());
+  const auto m = static_cast<Eigen::Index>(near.size());
+  const auto n_last = static_cast<Eigen::Index>(factor.last().size());
   Condensed out{MatX::Zero(n_last, 3 * m),
                 {},
                 VecX(3 * m),
@@ -87,7 +89,8 @@ Condensed condensed(const ContactState& state, const TangentFactor& factor,
       E += turned;
       if (state.controlled >= 0) out.springs.push_back(turned);
     }
-    out.T.push_back(n.law.T), out.E.push_back(E);
+    out.T.push_back(n.law.T);
+    out.E.push_back(E);
     out.follows = out.follows || !E.isZero(0);
   }
   out.W = factor.linear().compliance(out.B);
@@ -124,7 +127,8 @@ class Law {
  public:
   explicit Law(const Condensed& c) : c_(c) {
     if (!c.follows) {
-      W_r_ = c.W, direct_ = true;
+      W_r_ = c.W;
+      direct_ = true;
     } else {
       A_ = MatX::Identity(c.move.size(), c.move.size());  // r = b + A s
       for (std::size_t p = 0; p < c.E.size(); ++p)
@@ -139,10 +143,12 @@ class Law {
 
   // r: to start from
   Answer at(double travel, const VecX& r) const {
-    const VecX move = c_.along.size() > 0 ? VecX(c_.move - travel * c_.along)
-                                          : c_.move;  // of the nodes past the indenter
+    // of the nodes past the indenter
+    VecX move = c_.move;
+    if (c_.along.size() > 0) move = VecX(c_.move - travel * c_.along);
     const VecX b = without_change(travel, move);
-    const VecX q = c_.start_moves.size() > 0 ? VecX(c_.q - travel * c_.start_moves) : c_.q;
+    VecX q = c_.q;
+    if (c_.start_moves.size() > 0) q = VecX(c_.q - travel * c_.start_moves);
     Answer answer{VecX(c_.move.size()), r};
     if (direct_) {
       take(solve_local({slipping_, q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
@@ -224,19 +230,23 @@ Answer without_indenter(const Law& law, const Condensed& c) {
 // law holds exactly at each.
 Pushed pushed_by(const Law& law, const Condensed& c, double force) {
   constexpr double exact = 1e-12, enough = 1e-9, infinite = std::numeric_limits<double>::infinity();
-  double low = -infinite, high = infinite;
+  double low = -infinite;
+  double high = infinite;
   struct Point {
     double travel, miss;
   };
   std::optional<Point> last;
   Pushed best{{{}, c.present}, 0};
-  double least = infinite, next = 0;
+  double least = infinite;
+  double next = 0;
   int sweeps = 0;
   if (force == 0 || c.along.dot(c.present) == 0) {  // from the touch on
     best.answer = without_indenter(law, c);
     low = best.travel = law.touch(best.answer);
     if (force == 0 || !best.answer.solved || !std::isfinite(low)) return best;
-    sweeps = best.answer.sweeps, last = {low, -force}, next = low + 1e-3;
+    sweeps = best.answer.sweeps;
+    last = {low, -force};
+    next = low + 1e-3;
   }
   for (int i = 0; i < 100 && least > exact * force; ++i) {
     Answer answer = law.at(next, best.answer.r);
@@ -246,12 +256,26 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
       continue;
     }
     const Point here{next, law.force(answer) - force};
-    if (std::abs(here.miss) < least) least = std::abs(here.miss), best = {std::move(answer), next};
+    if (std::abs(here.miss) < least) {
+      least = std::abs(here.miss);
+      best = {std::move(answer), next};
+    }
     (here.miss < 0 ? low : high) = next;
-    const double slope = last ? (here.miss - last->miss) / (here.travel - last->travel) : 0;
-    const double furthest = last ? 100 * std::abs(here.travel - last->travel) : 1e-3;
-    const double step = slope > 0 ? std::abs(here.miss) / slope : furthest;
-    next += here.miss < 0 ? std::min(step, furthest) : -std::min(step, furthest);
+    double slope = 0;
+    if (last) slope = (here.miss - last->miss) / (here.travel - last->travel);
+    double furthest = 0;
+    if (last) {
+      furthest = 100 * std::abs(here.travel - last->travel);
+    } else {
+      furthest = 1e-3;
+    }
+    double step = furthest;
+    if (slope > 0) step = std::abs(here.miss) / slope;
+    if (here.miss < 0) {
+      next += std::min(step, furthest);
+    } else {
+      next += -std::min(step, furthest);
+    }
     if (std::isfinite(low) && std::isfinite(high) && (!(next > low && next < high) || i % 8 == 7))
       next = 0.5 * (low + high);
     if (std::isfinite(low) && high - low <= 1e-16 * (1 + std::abs(low))) break;

@@ -8,7 +8,8 @@ namespace langer {
 
 bool Statics::factorize() {
   const Stopwatch watch(cost_.factor);
-  factored_at_ = u_, of_accepted_ = false;
+  factored_at_ = u_;
+  of_accepted_ = false;
   return factor_.factorize(equilibrium_);
 }
 
@@ -38,7 +39,8 @@ bool Statics::factorize_accepted() {
     if (of_accepted_) equilibrium_.keep_dilatations();
   } else {
     const Stopwatch watch(cost_.factor);
-    factor.begin_increment(), solvable = factor.factorize(equilibrium_);
+    factor.begin_increment();
+    solvable = factor.factorize(equilibrium_);
   }
   factor.uncount(needed);  // they count what the solution needed
   return solvable;
@@ -58,10 +60,12 @@ void Statics::need_tangent() {
 double Statics::price() const {
   const LinearSolver::Size size = factor_.size();
   const ReferenceCell& cell = equilibrium_.mesh().cell();
-  const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss,
-               n = cell.n_nodes;
-  const double factor = size.flops / 20e9, through_factor = 16 * size.factor_nonzeros / 10e9;
-  const double tangents = 4e-9 * points * n * n, forces = 15e-9 * points * n;
+  const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss;
+  const double n = cell.n_nodes;
+  const double factor = size.flops / 20e9;
+  const double through_factor = 16 * size.factor_nonzeros / 10e9;
+  const double tangents = 4e-9 * points * n * n;
+  const double forces = 15e-9 * points * n;
   return (factor + tangents + through_factor + forces) / (through_factor + forces);
 }
 
@@ -79,7 +83,8 @@ std::optional<VecX> Statics::correction() {
   factor_serves_ = !iterative() && factor_.kind() == TangentFactor::Kind::whole &&
                    equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
-  return contact_in_tangent() ? du : corrected(rhs);
+  if (contact_in_tangent()) return du;
+  return corrected(rhs);
 }
 
 // K at another state of this increment stands for the one here, in the mixed equations of u and p.
@@ -87,7 +92,8 @@ std::optional<VecX> Statics::correction_again() {
   if (!factor_serves_ || !prescribed_reached(u_, remaining_prescribed(u_))) return std::nullopt;
   again_ = true;
   const VecX rhs = free_residual() + on_free_rows(equilibrium_.dilatation_residual());
-  return contact_in_tangent() ? corrected_with_contact(rhs) : corrected(rhs);
+  if (contact_in_tangent()) return corrected_with_contact(rhs);
+  return corrected(rhs);
 }
 
 VecX Statics::with_prescribed(const VecX& free) const {
@@ -105,16 +111,21 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
   if (MixedTangent* mixed = factor_.mixed()) {
     const Stopwatch watch(cost_.solve);
     mixed->linearise(equilibrium_, remaining_prescribed(u_));
-    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+    const std::vector<Vec3> c = indenters(t_, travel_);
+    const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
     answer = factor_.in_tangent()->solve(
         {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_, rhs, *mixed,
         dp_);
     if (!answer && equilibrium_.division()) return std::nullopt;  // shorter increments are left
-    if (!answer) factor_.take_factor(equilibrium_), dp_.resize(0);
+    if (!answer) {
+      factor_.take_factor(equilibrium_);
+      dp_.resize(0);
+    }
   }
   if (!answer) {
     const Stopwatch watch(cost_.contact);
-    const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
+    const std::vector<Vec3> c = indenters(t_, travel_);
+    const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
     const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
     const auto factorize = [this](const std::vector<double>& values) {
       const Stopwatch factoring(cost_.factor);
@@ -122,12 +133,16 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
       return factor_.factorize_with_contact(values);
     };
     ContactInTangent& contact = *factor_.in_tangent();
-    answer = again_ ? contact.solve_again(state, rhs, factor_.linear())
-                    : contact.solve(state, equilibrium_.K(), rhs, factor_.linear(), factorize);
+    if (again_) {
+      answer = contact.solve_again(state, rhs, factor_.linear());
+    } else {
+      answer = contact.solve(state, equilibrium_.K(), rhs, factor_.linear(), factorize);
+    }
   }
   cost_.contact -= cost_.factor - factor_before;
   if (!answer) return std::nullopt;
-  r_next_ = std::move(answer->r), cost_.sweeps += answer->solutions;
+  r_next_ = std::move(answer->r);
+  cost_.sweeps += answer->solutions;
   return with_prescribed(answer->move);
 }
 
@@ -161,14 +176,18 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
     std::optional<ContactChange> change;
     {
       const Stopwatch watch(cost_.contact);
-      const std::vector<Vec3> c = indenters(t_, travel_), c_start = indenters(now_.t, now_.travel);
-      const double force = controlled_ >= 0 ? controlled()->control->force.at(t_) : 0;
+      const std::vector<Vec3> c = indenters(t_, travel_);
+      const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
+      double force = 0;
+      if (controlled_ >= 0) force = controlled()->control->force.at(t_);
       change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
                                    controlled_, force, start_moves(), &bonds_},
                                   factor_, half.last);
     }
     if (!change) return std::nullopt;
-    r_next_ = std::move(change->r), travel_next_ = change->travel, cost_.sweeps += change->sweeps;
+    r_next_ = std::move(change->r);
+    travel_next_ = change->travel;
+    cost_.sweeps += change->sweeps;
     const Stopwatch watch(cost_.solve);
     if (factor_.kind() == TangentFactor::Kind::whole) {
       move = linear.finish(half, change->force);
@@ -194,7 +213,8 @@ FreeBalance Statics::free_balance() {
   b.tangent = [this](const VecX& u) {
     if (!equilibrium_.assemble(u, true)) return false;
     const Stopwatch watch(cost_.factor);
-    factor_serves_ = of_accepted_ = false, factored_at_ = u;
+    factor_serves_ = of_accepted_ = false;
+    factored_at_ = u;
     return factor_.factorize_fixed_reactions(equilibrium_);
   };
   b.solve = [this](const VecX& rhs, bool fresh) {

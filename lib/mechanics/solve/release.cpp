@@ -33,16 +33,24 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
     statics.bonds().go_on();
     statics.bonds().damp(damping);
     SolveReport part = solve();
-    all.iterations += part.iterations, all.again += part.again, all.evaluations += part.evaluations;
+    all.iterations += part.iterations;
+    all.again += part.again;
+    all.evaluations += part.evaluations;
     const double loosened = statics.bonds().loosened();
     if (!part.converged() || (damping == 0 && loosened > settled)) {
       statics.bonds().damp(std::numeric_limits<double>::infinity());  // as they were
       statics.back_to(last);
-      damping = damping == 0 ? 0.1 * work : 8 * damping;
+      if (damping == 0) {
+        damping = 0.1 * work;
+      } else {
+        damping = 8 * damping;
+      }
       continue;
     }
     if (damping == 0) {
-      part.iterations = all.iterations, part.again = all.again, part.evaluations = all.evaluations;
+      part.iterations = all.iterations;
+      part.again = all.again;
+      part.evaluations = all.evaluations;
       return part;
     }
     last = statics.kept_trial();
@@ -52,7 +60,7 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
       damping *= 0.5;
     if (damping < undamped * work) damping = 0;
   }
-  all.outcome = Outcome::not_converged,
+  all.outcome = Outcome::not_converged;
   all.why = "the bonds of the adhesion find no state in which they rest";
   return all;
 }
@@ -64,7 +72,8 @@ SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
                                  const std::function<void(int)>& jumping) {
   const double from = statics.accepted().t;
   SolveReport report = solve();
-  const double loosened = report.converged() ? statics.bonds().loosened() : 0;
+  double loosened = 0;
+  if (report.converged()) loosened = statics.bonds().loosened();
   if (report.converged() && loosened <= most_loosened) return report;
   if (t - from > shortest) {
     if (report.converged())
@@ -80,7 +89,8 @@ SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
   const double before = statics.stored();
   const VecX u = statics.trial();
   SolveReport jump = let_go(statics, solve, jumping);
-  jump.iterations += report.iterations + held.iterations, jump.again += report.again + held.again;
+  jump.iterations += report.iterations + held.iterations;
+  jump.again += report.again + held.again;
   if (!jump.converged()) return jump;
   const double of_loads = statics.work_of_loads(u);
   statics.jumped(before - at_begin + of_loads,

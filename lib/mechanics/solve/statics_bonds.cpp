@@ -14,13 +14,19 @@ void Statics::accept_bonds() {
   const bool jumped = jump_.work_of_jumps != 0 || jump_.released != 0;
   now_.bonds = bonds_.after(r_, before_.r, u_, indenters(t_, travel_));
   now_.in_bonds = before_.in_bonds;
-  now_.in_bonds.dissipated += jumped ? bonds_.dissipated_since(before_.bonds) : bonds_.dissipated();
-  now_.in_bonds.released += jump_.released, now_.in_bonds.work_of_jumps += jump_.work_of_jumps;
+  if (jumped) {
+    now_.in_bonds.dissipated += bonds_.dissipated_since(before_.bonds);
+  } else {
+    now_.in_bonds.dissipated += bonds_.dissipated();
+  }
+  now_.in_bonds.released += jump_.released;
+  now_.in_bonds.work_of_jumps += jump_.work_of_jumps;
   now_.in_bonds.stored = stored();
 }
 
 void Statics::back_to(const Trial& trial) {
-  u_ = trial.u, r_ = r_next_ = trial.r;
+  u_ = trial.u;
+  r_ = r_next_ = trial.r;
   K_current_ = factor_serves_ = again_ = false;
   equilibrium_.pressures_from(u_);
   bonds_.evaluate(equilibrium_.mesh().X, u_, indenters(t_, travel_));
@@ -29,7 +35,8 @@ void Statics::back_to(const Trial& trial) {
 double Statics::stored() const { return equilibrium_.W() + bonds_.stored(); }
 
 double Statics::work_of_loads(const VecX& from) const {
-  return equilibrium_.loads().empty() ? 0 : equilibrium_.f_ext().dot(u_ - from);
+  if (equilibrium_.loads().empty()) return 0;
+  return equilibrium_.f_ext().dot(u_ - from);
 }
 
 }  // namespace langer

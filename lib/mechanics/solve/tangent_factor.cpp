@@ -77,7 +77,8 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
   if (tangent_serves &&
       linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
-    last_.clear(), last_of_.clear();
+    last_.clear();
+    last_of_.clear();
     take_into_tangent(body, contacts);
     return;
   }
@@ -122,7 +123,10 @@ LinearSolver::Size TangentFactor::size() const {
 void TangentFactor::begin_increment() {
   supported_ = false;
   if (!mixed_) return;
-  if (by_factor_) linear_.reset(), by_factor_ = false;
+  if (by_factor_) {
+    linear_.reset();
+    by_factor_ = false;
+  }
   mixed_->solver().forget();
   in_tangent_->begin_increment();
 }
@@ -158,7 +162,8 @@ bool TangentFactor::factorize_supported(const Assembler& body) {
   // The body itself gives way. In a few directions stabilisation springs help; where they are many,
   // the increment was too long: K there says nothing, and the same point comes within reach by
   // shorter ones.
-  kind_ = Kind::indefinite, ++counts_.unstable;
+  kind_ = Kind::indefinite;
+  ++counts_.unstable;
   return supported_ = linear_->factorize_with_springs(K_with_springs());
 }
 
@@ -166,15 +171,19 @@ bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
   ++counts_.factorizations;
   kind_ = Kind::whole;
   if (linear_->factorize(values)) return true;
-  ++counts_.indefinite, ++counts_.unstable, kind_ = Kind::indefinite;
+  ++counts_.indefinite;
+  ++counts_.unstable;
+  kind_ = Kind::indefinite;
   return linear_->factorize_indefinite(values);
 }
 
 bool TangentFactor::factorize_fixed_reactions(const Assembler& body) {
   ++counts_.factorizations;
-  kind_ = Kind::whole, supported_ = false;
+  kind_ = Kind::whole;
+  supported_ = false;
   if (linear_->factorize(body.K())) return true;
-  ++counts_.indefinite, kind_ = Kind::indefinite;
+  ++counts_.indefinite;
+  kind_ = Kind::indefinite;
   return linear_->factorize_indefinite(body.K());
 }
 

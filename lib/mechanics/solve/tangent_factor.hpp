@@ -51,7 +51,10 @@ class TangentFactor {
   bool factorize_fixed_reactions(const Assembler& body);
 
   // Without a factor: the tangent as it is solved iteratively, contact in it. nullptr: by a factor.
-  MixedTangent* mixed() const { return by_factor_ ? nullptr : mixed_.get(); }
+  MixedTangent* mixed() const {
+    if (by_factor_) return nullptr;
+    return mixed_.get();
+  }
   bool iterative() const { return mixed_ != nullptr; }
   // In the rest of this increment by a factor, which only one rank can make, as the iterative
   // solution did not converge. The next one begins as if nothing had been, so that an interrupted
@@ -80,7 +83,8 @@ class TangentFactor {
   };
   const Counts& counts() const { return counts_; }
   void uncount(const Counts& before) {
-    counts_.indefinite = before.indefinite, counts_.unstable = before.unstable;
+    counts_.indefinite = before.indefinite;
+    counts_.unstable = before.unstable;
   }
 
  private:

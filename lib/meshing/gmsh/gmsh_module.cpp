@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/text.hpp"
 #include "core/base/version.hpp"
 #include "meshing/gmsh/gmsh_interface.hpp"
 #include "meshing/gmsh/gmsh_session.hpp"
@@ -16,7 +17,7 @@ namespace {
 [[noreturn]] void throw_last_words() {
   std::string words;
   gmsh::logger::getLastError(words);
-  throw std::runtime_error(words.empty() ? "no reason given" : words);
+  throw std::runtime_error(text_or(words, "no reason given"));
 }
 
 std::vector<MshElements> elements(int dim, int entity = -1) {

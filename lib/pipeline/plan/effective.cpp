@@ -34,9 +34,12 @@ Effective check(Tree tree, const std::string& folder) {
       e.files.push_back({included, file.key, place});
     }
   }
-  if constexpr (std::is_same_v<Config, FitConfig>)
-    e.look_at_data = [config = loaded.config] { return doubts(measured_tests(config)); },
+  if constexpr (std::is_same_v<Config, FitConfig>) {
+    e.look_at_data = [config = loaded.config] {
+      return doubts(measured_tests(config));
+    };
     e.names = names_in(loaded.config.law);
+  }
   if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>)
     e.names = names_in(loaded.config);
   if constexpr (std::is_same_v<Config, SolveConfig>) {

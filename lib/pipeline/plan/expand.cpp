@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/text.hpp"
 #include "core/config/reader.hpp"
 #include "core/config/writer.hpp"
 
@@ -278,8 +279,7 @@ class Expansion {
     for (const Axis* axis : axes) {
       Tree one;
       one.kind = Tree::Kind::map;
-      one.map = {{"name", text_tree(axis->name)},
-                 {"unit", text_tree(axis->unit.empty() ? "-" : axis->unit)}};
+      one.map = {{"name", text_tree(axis->name)}, {"unit", text_tree(text_or(axis->unit, "-"))}};
       if (axis->design.kind == Tree::Kind::map) one.map.push_back({"design", axis->design});
       if (axis->samples > 0)
         one.map.push_back({"samples", plain_tree(std::to_string(axis->samples))});

@@ -52,7 +52,8 @@ void ask_columns(std::vector<AskedName>& asked, const std::vector<ColumnChoice>&
 
 std::string near_words(const std::string& name, const std::vector<std::string>& known) {
   const std::string near = nearest(name, known);
-  return near.empty() ? "" : fmt::format("did you mean \"{}\"?", near);
+  if (near.empty()) return "";
+  return fmt::format("did you mean \"{}\"?", near);
 }
 
 std::optional<Error> lost_in_mesh(const AskedName& a, const MeshNames& mesh) {
@@ -110,8 +111,10 @@ SceneNames names_in(const MeshConfig& config) {
     if (!is_section(config.geometry) || (side != "z_min" && side != "z_max"))
       mesh.sets.push_back(side);
   for (const auto& [name, set] : config.sets) mesh.sets.push_back(name);
-  for (const auto& [name, x] : config.points)
-    mesh.sets.push_back(name), mesh.points.push_back(name);
+  for (const auto& [name, x] : config.points) {
+    mesh.sets.push_back(name);
+    mesh.points.push_back(name);
+  }
   std::sort(mesh.sets.begin(), mesh.sets.end());
   for (const LayerConfig& layer : config.bodies) mesh.bodies.push_back(layer.name);
   if (mesh.bodies.empty()) mesh.bodies = {config.body};

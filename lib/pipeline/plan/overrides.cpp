@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/member.hpp"
 
 namespace langer::pipeline {
@@ -30,14 +31,26 @@ struct Typed {
 
 Typed typed(const char* option, const std::string& text, const char* example) {
   Typed t;
-  const std::size_t equals = text.find('='), colon = text.substr(0, equals).find(':');
-  const std::size_t begin = colon == std::string::npos ? 0 : colon + 1, dot = text.find('.', begin);
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = text.substr(0, equals).find(':');
+  std::size_t begin = 0;
+  if (colon == std::string::npos) {
+    begin = 0;
+  } else {
+    begin = colon + 1;
+  }
+  const std::size_t dot = text.find('.', begin);
   if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == begin ||
       dot + 1 >= equals)
     refuse(option, "found \"" + text + "\"",
            fmt::format("node.key=value, for example {} {}", option, example));
-  t.axis = colon == std::string::npos ? "" : text.substr(0, colon);
-  t.node = text.substr(begin, dot - begin), t.key = text.substr(dot + 1, equals - dot - 1);
+  if (colon == std::string::npos) {
+    t.axis = "";
+  } else {
+    t.axis = text.substr(0, colon);
+  }
+  t.node = text.substr(begin, dot - begin);
+  t.key = text.substr(dot + 1, equals - dot - 1);
   t.value = typed_value(text.substr(equals + 1), option);
   return t;
 }
@@ -61,7 +74,7 @@ Tree& node_of(Tree& pipeline, const char* option, const std::string& name) {
   if (!nodes || !nodes->find(name)) {
     const std::string near = nearest(name, known);
     refuse(option, fmt::format("there is no node \"{}\"", name), "one of " + list_words(known),
-           near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+           did_you_mean(near));
   }
   return *child(*nodes, name);
 }
@@ -115,9 +128,12 @@ void apply(const Overrides& overrides, Tree& pipeline) {
       refuse("--sweep", fmt::format("{}: found {}", t.key, description(t.value)),
              "a list of values, for example [0, 0.2]");
     Tree key = t.value;
-    key.list.clear(), key.kind = Tree::Kind::scalar, key.scalar = t.key;
+    key.list.clear();
+    key.kind = Tree::Kind::scalar;
+    key.scalar = t.key;
     Tree axis = key;
-    axis.scalar.clear(), axis.kind = Tree::Kind::map;
+    axis.scalar.clear();
+    axis.kind = Tree::Kind::map;
     axis.map = {{"key", key}, {"values", t.value}};
     made_child(made_child(node, "sweep", t.value), t.axis.empty() ? axis_name(t.key) : t.axis,
                t.value) = axis;

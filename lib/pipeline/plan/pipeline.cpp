@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/base/text.hpp"
 #include "core/config/reader.hpp"
 #include "core/config/writer.hpp"
 #include "pipeline/sweep/design.hpp"
@@ -23,7 +24,8 @@ std::string label_of(const Tree& value, bool& is_number) {
   Findings none;
   read_leaf(value, "", Member{}, x, none);
   is_number = none.errors.empty();
-  return is_number ? number_text(x) : value.scalar;
+  if (is_number) return number_text(x);
+  return value.scalar;
 }
 
 // nan, inf, 1e400, 1e-400, as YAML or C write them; strtod would find the same by an overflow
@@ -120,7 +122,7 @@ class Reading {
       const std::string near = nearest(wanted, stage_names());
       if (!n.stage)
         f.say(stage->place, path + ".stage", "found " + description(*stage), known_stages,
-              near.empty() ? "" : "did you mean \"" + near + "\"?");
+              did_you_mean(near));
     }
     if (!n.stage) return n;
     std::vector<std::string> known{"stage", "config", "set", "sweep", "over"};
@@ -188,8 +190,7 @@ class Reading {
     } else {
       const std::string near = nearest(wanted, names_);
       f.say(given->place, key, fmt::format("there is no node \"{}\"", wanted),
-            "one of " + list_words(names_) + ", or a file",
-            near.empty() ? "" : "did you mean \"" + near + "\"?");
+            "one of " + list_words(names_) + ", or a file", did_you_mean(near));
     }
   }
 
@@ -275,7 +276,7 @@ class Reading {
       for (const AxisPoint& point : a.points)
         for (std::size_t i = 0; i < given.list.size(); ++i) {
           AxisPoint& next = points.emplace_back(point);
-          next.label += (next.label.empty() ? "" : "-") + label_text(given.list[i], item(here, i));
+          append(next.label, "-", label_text(given.list[i], item(here, i)));
           next.settings.push_back({key, given.list[i]});
         }
       a.points = std::move(points);

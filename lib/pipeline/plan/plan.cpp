@@ -57,7 +57,12 @@ class Planning {
     const std::string config = step.folder + "/" + step.stage->name + ".yaml";
     Rule rule{step.output(), {config}, std::string("langer-") + step.stage->name, config};
     for (const StepInput& input : step.inputs) {
-      const std::string path = input.made ? input.path : given_file(step, input);
+      std::string path;
+      if (input.made) {
+        path = input.path;
+      } else {
+        path = given_file(step, input);
+      }
       rule.prerequisites.push_back(path);
       rule.arguments += fmt::format(" --{} {}", input.port, path);
     }
@@ -116,15 +121,18 @@ class Planning {
 
   // What an input has of names, made by a step before or given as a file.
   void add_names(const Step& step, const StepInput& input, SceneNames& names) {
-    const std::string port = input.port, made_by = step.stage->name;
+    const std::string port = input.port;
+    const std::string made_by = step.stage->name;
     if ((made_by != "solve" || (port != "mesh" && port != "material")) &&
         (made_by != "post" || port != "solution"))
       return;
     const SceneNames& there = input.made ? names_[input.path] : names_in_file(port, input.path);
     if (port != "material" && !names.mesh) names.mesh = there.mesh;
     if (port != "mesh" && !names.families) names.families = there.families;
-    if (port == "solution")
-      names.more_families = there.more_families, names.contacts = there.contacts;
+    if (port == "solution") {
+      names.more_families = there.more_families;
+      names.contacts = there.contacts;
+    }
   }
 
   const SceneNames& names_in_file(const std::string& port, const std::string& path) {
@@ -240,7 +248,11 @@ std::string as_make_reads(const std::string& folder) {
                           fmt::format("the programs lie in a folder with {} in its name", c),
                           "letters, digits, blanks, / . _ - + , = @ ~",
                           "make gives it a meaning: put them elsewhere"});
-    seen += c == ' ' ? "\\ " : std::string(1, c);
+    if (c == ' ') {
+      seen += "\\ ";
+    } else {
+      seen += std::string(1, c);
+    }
   }
   return seen;
 }

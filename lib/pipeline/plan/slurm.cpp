@@ -94,7 +94,12 @@ std::vector<SlurmFile> slurm_files(const std::string& run, const std::vector<Ste
   for (const Jobs* jobs : order) {
     std::string after;
     for (const std::string& node : jobs->after) after += fmt::format("${{{}}}", variable(node));
-    const std::string wait = after.empty() ? "" : fmt::format(" --dependency=afterany{}", after);
+    std::string wait;
+    if (after.empty()) {
+      wait = "";
+    } else {
+      wait = fmt::format(" --dependency=afterany{}", after);
+    }
     const std::string name = variable(jobs->node);
     submit += name + "=\n";
     for (std::size_t first = 0; first < jobs->steps.size(); first += largest_array) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -52,8 +53,7 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
     const std::string near = nearest(name, known);
     throw Failure(Exit::config,
                   Error{asked_at, "columns", fmt::format("no member has a quantity \"{}\"", name),
-                        "one of " + list_words(known),
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                        "one of " + list_words(known), did_you_mean(near)});
   }
   return c;
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/csv_table.hpp"
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "pipeline/sweep/spread.hpp"
 #include "results/post/figure.hpp"
@@ -47,7 +48,7 @@ std::string member_text(const std::string& pattern, const std::vector<SweepAxis>
       }
     }
   }
-  std::string text = pattern.empty() ? "{}" : pattern;
+  std::string text = text_or(pattern, "{}");
   for (std::size_t i = text.find("{}"); i != std::string::npos;
        i = text.find("{}", i + values.size()))
     text.replace(i, 2, values);
@@ -68,7 +69,7 @@ struct Table {
   }
   std::string csv() const {
     std::string text;
-    for (const std::string& head : heads) text += (text.empty() ? "" : ",") + csv_cell(head);
+    for (const std::string& head : heads) append(text, ",", csv_cell(head));
     text += "\n";
     std::size_t rows = 0;
     for (const auto& c : columns) rows = std::max(rows, c.size());
@@ -94,8 +95,7 @@ std::string shown(const std::string& name) {
                           const std::vector<std::string>& known) {
   const std::string near = nearest(name, known);
   throw Failure(Exit::config, Error{place, key, fmt::format("no member has \"{}\"", name),
-                                    "one of " + list_words(known),
-                                    near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                                    "one of " + list_words(known), did_you_mean(near)});
 }
 
 class Drawer {

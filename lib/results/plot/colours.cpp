@@ -22,17 +22,25 @@ namespace {
 // CIE 15 and IEC 61966-2-1: L* a* b* with white point D65, and sRGB
 constexpr double white[3] = {0.95047, 1, 1.08883};
 double from_f(double t) {
-  return t > 6.0 / 29 ? t * t * t : 3 * (6.0 / 29) * (6.0 / 29) * (t - 4.0 / 29);
+  if (t > 6.0 / 29) return t * t * t;
+  return 3 * (6.0 / 29) * (6.0 / 29) * (t - 4.0 / 29);
 }
 double encoded(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  if (x <= 0.0031308) return 12.92 * x;
+  return 1.055 * std::pow(x, 1 / 2.4) - 0.055;
 }
-double decoded(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
+double decoded(double x) {
+  if (x <= 0.04045) return x / 12.92;
+  return std::pow((x + 0.055) / 1.055, 2.4);
+}
 
 Colour of_lch(double L, double C, double h) {
-  const double fy = (L + 16) / 116, a = C * std::cos(h), b = C * std::sin(h);
-  const double X = white[0] * from_f(fy + a / 500), Y = white[1] * from_f(fy),
-               Z = white[2] * from_f(fy - b / 200);
+  const double fy = (L + 16) / 116;
+  const double a = C * std::cos(h);
+  const double b = C * std::sin(h);
+  const double X = white[0] * from_f(fy + a / 500);
+  const double Y = white[1] * from_f(fy);
+  const double Z = white[2] * from_f(fy - b / 200);
   return {encoded(3.2404542 * X - 1.5371385 * Y - 0.4985314 * Z),
           encoded(-0.9692660 * X + 1.8760108 * Y + 0.0415560 * Z),
           encoded(0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z)};
@@ -83,7 +91,8 @@ Colour signed_colour(double position, SignedColours colours) {
 
 double lightness(const Colour& c) {
   const double Y = 0.2126729 * decoded(c.r) + 0.7151522 * decoded(c.g) + 0.0721750 * decoded(c.b);
-  return Y > 216.0 / 24389 ? 116 * std::cbrt(Y) - 16 : Y * 24389 / 27;
+  if (Y > 216.0 / 24389) return 116 * std::cbrt(Y) - 16;
+  return Y * 24389 / 27;
 }
 
 }  // namespace langer

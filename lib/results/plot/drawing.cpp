@@ -27,9 +27,9 @@ std::vector<Piece> pieces(const std::string& text) {
       found.back().text += text[++i];
     else if ((text[i] == '_' || text[i] == '^') && i + 1 < text.size()) {
       found.push_back({"", text[i] == '_' ? 1 : -1});
-      const std::size_t from = i + 1, end = text[from] == '{'
-                                                ? std::min(text.find('}', from), text.size())
-                                                : from;
+      const std::size_t from = i + 1;
+      std::size_t end = from;
+      if (text[from] == '{') end = std::min(text.find('}', from), text.size());
       if (text[from] == '{')
         found.back().text = text.substr(from + 1, end - from - 1);
       else
@@ -48,9 +48,12 @@ std::string with_subscripts(const Label& label) {
     if (piece.text.empty()) continue;
     const double dy = 0.25 * label.size * (piece.below - line);
     line = piece.below;
-    s += dy == 0 ? xml_text(piece.text)
-                 : fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy,
-                               (piece.below ? 0.7 : 1) * label.size, xml_text(piece.text));
+    if (dy == 0) {
+      s += xml_text(piece.text);
+    } else {
+      s += fmt::format("<tspan dy=\"{:.2f}\" font-size=\"{:.2f}\">{}</tspan>", dy,
+                       (piece.below ? 0.7 : 1) * label.size, xml_text(piece.text));
+    }
   }
   return s;
 }
@@ -72,8 +75,11 @@ struct SvgWriter {
   DecimalSign sign;
   void operator()(const Patch& p) const {
     s += fmt::format("<polygon points=\"{}\" fill=\"{}\"", points_text(p.corners), hex(p.fill));
-    s += p.hem > 0 ? fmt::format(" stroke=\"{}\" stroke-width=\"{}\"/>\n", hex(p.fill), p.hem)
-                   : "/>\n";
+    if (p.hem > 0) {
+      s += fmt::format(" stroke=\"{}\" stroke-width=\"{}\"/>\n", hex(p.fill), p.hem);
+    } else {
+      s += "/>\n";
+    }
   }
   void operator()(const Stroke& l) const {
     s += fmt::format(
@@ -83,10 +89,12 @@ struct SvgWriter {
   void operator()(const Label& label) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
     const Label t = printed(label, sign);
-    const std::string turn =
-        t.turned == 0
-            ? ""
-            : fmt::format(" transform=\"rotate({:g} {:.2f} {:.2f})\"", -t.turned, t.at[0], t.at[1]);
+    std::string turn;
+    if (t.turned == 0) {
+      turn = "";
+    } else {
+      turn = fmt::format(" transform=\"rotate({:g} {:.2f} {:.2f})\"", -t.turned, t.at[0], t.at[1]);
+    }
     s += fmt::format(
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}{}>{}</text>\n",
         t.at[0], t.at[1], t.size, anchors[static_cast<int>(t.anchor)],
@@ -122,10 +130,13 @@ struct GnuplotWriter {
   void operator()(const Stroke& l) {
     for (std::size_t i = 1; i < l.points.size(); ++i) {
       const PagePoint &a = l.points[i - 1], &b = l.points[i];
-      const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+      const double dx = b[0] - a[0];
+      const double dy = b[1] - a[1];
+      const double length = std::hypot(dx, dy);
       if (length == 0) continue;
-      const double x = 0.5 * l.width * dx / length,
-                   y = 0.5 * l.width * dy / length;  // along; across is (-y, x)
+      // along; across is (-y, x)
+      const double x = 0.5 * l.width * dx / length;
+      const double y = 0.5 * l.width * dy / length;
       polygon({{a[0] - 0.5 * x - y, a[1] - 0.5 * y + x},
                {b[0] + 0.5 * x - y, b[1] + 0.5 * y + x},
                {b[0] + 0.5 * x + y, b[1] + 0.5 * y - x},
@@ -137,7 +148,8 @@ struct GnuplotWriter {
     constexpr const char* anchors[] = {"left", "center", "right"};
     const Label t = printed(label, sign);
     // SVG places the base line, gnuplot the middle of the letters
-    const double up = 0.35 * t.size, turned = t.turned * std::numbers::pi / 180;
+    const double up = 0.35 * t.size;
+    const double turned = t.turned * std::numbers::pi / 180;
     labels += fmt::format(
         "set label {} at {:.2f},{:.2f} {} {}front {}enhanced font ',{}'{}\n",
         gnuplot_string(t.text), t.at[0] - up * std::sin(turned),
@@ -228,10 +240,12 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& name,
                        inch * drawing.width, inch * drawing.height, font,
                        style.drawing_unit() / 0.75);
     s += gnuplot_output(name + "." + names(PictureFormat{})[static_cast<std::size_t>(format)]);
-    s +=
-        writer.polygons.empty()
-            ? "plot NaN\n"
-            : "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n";
+    if (writer.polygons.empty()) {
+      s += "plot NaN\n";
+    } else {
+      s +=
+          "plot $marks using 1:2:3 with filledcurves closed linecolor rgb variable fillstyle solid noborder\n";
+    }
   }
   return s + "unset output\n";
 }
@@ -250,7 +264,8 @@ std::vector<double> ticks(double low, double high, int wished) {
 }
 
 std::vector<std::string> tick_texts(const std::vector<double>& at) {
-  const double step = at.size() > 1 ? at[1] - at[0] : 1;
+  double step = 1;
+  if (at.size() > 1) step = at[1] - at[0];
   const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   std::vector<std::string> texts;
   for (double value : at)

@@ -15,8 +15,14 @@ using namespace map_parts;
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   explicit Extent(const std::vector<double>& all) {
-    for (double one : all) low = std::min(low, one), high = std::max(high, one);
-    if (!(high > low)) low -= 0.5, high += 0.5;
+    for (double one : all) {
+      low = std::min(low, one);
+      high = std::max(high, one);
+    }
+    if (!(high > low)) {
+      low -= 0.5;
+      high += 0.5;
+    }
   }
   double size() const { return high - low; }
 };
@@ -47,7 +53,8 @@ void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
   }
   d.marks.push_back(label(12, p.top - 10, map.y_label, 13, Label::Anchor::start));
   if (!last) return;
-  at = ticks(p.x.low, p.x.high), texts = tick_texts(at);
+  at = ticks(p.x.low, p.x.high);
+  texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k) {
     d.marks.push_back(
         Stroke{{{p.x_of(at[k]), p.bottom() + 4}, {p.x_of(at[k]), p.bottom() + 9}}, ink, 1, 1});
@@ -58,8 +65,9 @@ void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
 
 void add_scale(Drawing& d, const Panel& p, const FieldPanel& panel) {
   constexpr int cells = 20;
-  const double x = p.left + p.width + p.side / 2 + 18, height = std::max(p.height, 60.0),
-               step = height / cells;
+  const double x = p.left + p.width + p.side / 2 + 18;
+  const double height = std::max(p.height, 60.0);
+  const double step = height / cells;
   for (int k = 0; k < cells; ++k)
     d.marks.push_back(box(x, p.top + height - step * (k + 1), 14, step,
                           signed_colour(2 * (k + 0.5) / cells - 1)));
@@ -84,13 +92,16 @@ Drawing field_map(const FieldMap& map) {
         label(p.left + p.width / 2, top - p.side / 2 - 8, panel.title + " (" + map.unit + ")"));
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double value = panel.values[i];
-      const Colour colour =
-          std::isfinite(value) ? signed_colour(std::clamp(value / panel.limit, -1.0, 1.0)) : grey;
+      Colour colour = grey;
+      if (std::isfinite(value)) {
+        colour = signed_colour(std::clamp(value / panel.limit, -1.0, 1.0));
+      }
       d.marks.push_back(box(p.x_of(map.x[i]) - p.side / 2, p.y_of(map.y[i]) - p.side / 2, p.side,
                             p.side, colour));
     }
     const bool last = k + 1 == map.panels.size();
-    add_axes(d, map, p, last), add_scale(d, p, panel);
+    add_axes(d, map, p, last);
+    add_scale(d, p, panel);
     top = p.bottom() + (last ? 60 : 44);
   }
   d.height = top;

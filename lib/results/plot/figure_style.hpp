@@ -63,7 +63,10 @@ struct FigureStyle {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   }
   // of drawings: a unit of the page in 1/72 inch
-  double drawing_unit() const { return on_paper() ? points() / Look::number_size : 0.75; }
+  double drawing_unit() const {
+    if (on_paper()) return points() / Look::number_size;
+    return 0.75;
+  }
   Look look() const;
 };
 

@@ -7,8 +7,16 @@ namespace langer {
 
 // "travel (mm)", "angle (°)"; the label alone where the unit is -
 inline std::string with_unit(const std::string& label, const std::string& unit) {
-  const std::string sign = unit == "deg" ? "°" : unit == "percent" ? "%" : unit;
-  return unit == "-" ? label : label + " (" + sign + ")";
+  std::string sign;
+  if (unit == "deg") {
+    sign = "°";
+  } else if (unit == "percent") {
+    sign = "%";
+  } else {
+    sign = unit;
+  }
+  if (unit == "-") return label;
+  return label + " (" + sign + ")";
 }
 
 }  // namespace langer

@@ -50,7 +50,13 @@ std::string last_line(const std::string& path) {
 // spaces that stay: SVG viewers drop a space beside a subscript
 std::string printed(const std::string& text) {
   std::string s;
-  for (char c : text) s += c == ' ' ? "\u00a0" : std::string(1, c);
+  for (char c : text) {
+    if (c == ' ') {
+      s += "\u00a0";
+    } else {
+      s += std::string(1, c);
+    }
+  }
   return gnuplot_string(s);
 }
 
@@ -101,13 +107,23 @@ double small(const FigureStyle& style) {
 std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i,
                       const FigureStyle& style) {
   const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
-  const std::size_t colour = line.colour < 0 ? i : static_cast<std::size_t>(line.colour);
+  std::size_t colour = 0;
+  if (line.colour < 0) {
+    colour = i;
+  } else {
+    colour = static_cast<std::size_t>(line.colour);
+  }
   // lines beyond the last colour begin with other dashes
-  const std::size_t dash =
-      line.dash < 0 ? i + i / colours.size() : static_cast<std::size_t>(line.dash) * 2;
+  std::size_t dash = 0;
+  if (line.dash < 0) {
+    dash = i + i / colours.size();
+  } else {
+    dash = static_cast<std::size_t>(line.dash) * 2;
+  }
   const char* const rgb = colours[colour % colours.size()];
-  const std::string file = gnuplot_file(line.csv), x = gnuplot_string(line.x),
-                    y = gnuplot_string(line.y);
+  const std::string file = gnuplot_file(line.csv);
+  const std::string x = gnuplot_string(line.x);
+  const std::string y = gnuplot_string(line.y);
   std::string s;
   if (!line.error.empty())
     s += fmt::format(
@@ -168,7 +184,8 @@ std::string frame_of(const Plot& plot, const FigureStyle& style) {
 // A label whose unit takes a factor, as a gnuplot expression of its exponent e: energy (N mm)
 // becomes energy (10^{-4} N mm).
 std::string with_factor(const std::string& label, bool is_unit) {
-  const std::size_t unit = label.ends_with(')') ? label.rfind('(') : std::string::npos;
+  std::size_t unit = std::string::npos;
+  if (label.ends_with(')')) unit = label.rfind('(');
   const std::string factor = " . sprintf('10^{%d}', e) . ";
   if (is_unit) return "''" + factor + printed(" " + label);
   if (unit == std::string::npos) return printed(label + " (") + factor + "')'";
@@ -210,9 +227,16 @@ std::string factors_of(const Plot& plot, const std::string& draw) {
 
 // one for the screen: sizes that were there before papers were thought of
 std::string terminal_of(PictureFormat format, const FigureStyle& style) {
-  const double inches = style.width_mm() / 25.4,
-               tall = style.height ? *style.height / 25.4 : inches / 1.5;
-  const double points = style.points(), thick = points / 10.5, pixels = style.dpi / 96.0;
+  const double inches = style.width_mm() / 25.4;
+  double tall = 0;
+  if (style.height) {
+    tall = *style.height / 25.4;
+  } else {
+    tall = inches / 1.5;
+  }
+  const double points = style.points();
+  const double thick = points / 10.5;
+  const double pixels = style.dpi / 96.0;
   const std::string font = gnuplot_string(
       fmt::format("{},{:.4g}", style.font, format == PictureFormat::svg ? points / 0.75 : points));
   switch (format) {

@@ -28,16 +28,28 @@ struct Grid {
   Grid(const HeatMap& of, const Look& with) : map(of), look(with) {
     for (const std::string& name : map.y_names) names = std::max(names, text_width(name, 13));
     const double scale = map.losses ? 20 : 110;
-    left = map.y_names.empty() ? std::min(150.0, 0.2 * page) : names + 20;
+    if (map.y_names.empty()) {
+      left = std::min(150.0, 0.2 * page);
+    } else {
+      left = names + 20;
+    }
     if (left > 0.55 * page) left = 0.55 * page;
     if (!look.titles || map.title.empty()) top = 34;
     width = std::max(60.0, page - left - scale);
-    if (!look.width)
-      width = map.y_names.empty()
-                  ? 420
-                  : std::min(width, std::max(420.0, 60.0 * static_cast<double>(columns)));
-    height = map.y_names.empty() ? width : std::max(60., 42. * static_cast<double>(rows));
-    w = width / static_cast<double>(columns), h = height / static_cast<double>(rows);
+    if (!look.width) {
+      if (map.y_names.empty()) {
+        width = 420;
+      } else {
+        width = std::min(width, std::max(420.0, 60.0 * static_cast<double>(columns)));
+      }
+    }
+    if (map.y_names.empty()) {
+      height = width;
+    } else {
+      height = std::max(60., 42. * static_cast<double>(rows));
+    }
+    w = width / static_cast<double>(columns);
+    h = height / static_cast<double>(rows);
     for (const std::string& name : map.x_names) turned = turned || text_width(name, 13) > 0.95 * w;
   }
   double bottom() const { return top + height; }
@@ -82,12 +94,17 @@ void add_numbers(Drawing& d, const Grid& g) {
       const double value = g.map.values(i, j);
       const double size = std::min(13.0, g.w / 3.2);  // of -0.99 in a cell
       if (size < 5) continue;                         // a colour says more
-      std::string text = std::isfinite(value) ? fmt::format("{:.{}f}", value,
-                                                            g.w > 50 && std::abs(value) > 0.99 ? 3
-                                                            : g.w > 34                         ? 2
-                                                                                               : 1)
-                         : std::isinf(value)  ? "none"
-                                              : "–";
+      std::string text;
+      if (std::isfinite(value)) {
+        text = fmt::format("{:.{}f}", value,
+                           g.w > 50 && std::abs(value) > 0.99 ? 3
+                           : g.w > 34                         ? 2
+                                                              : 1);
+      } else if (std::isinf(value)) {
+        text = "none";
+      } else {
+        text = "–";
+      }
       if (g.map.losses && std::isfinite(value)) text = fmt::format("{:.3g}", value);
       if (std::isfinite(value) && !g.map.losses && std::abs(value) >= 1 - 1e-12)
         text = fmt::format("{:.0f}", value);
@@ -106,11 +123,13 @@ void add_zero_line(Drawing& d, const Grid& g) {
   };
   for (Eigen::Index i = 0; i < g.rows; ++i)
     for (Eigen::Index j = 0; j < g.columns; ++j) {
-      const double x = g.x_of(j), y = g.y_of(i);
+      const double x = g.x_of(j);
+      const double y = g.y_of(i);
       if (j + 1 < g.columns && differ(values(i, j), values(i, j + 1)))
         d.marks.push_back(Stroke{{{x + g.w, y}, {x + g.w, y + g.h}}, ink, 1.5, 1});
       if (i + 1 < g.rows && differ(values(i, j), values(i + 1, j))) {
-        const double edge = g.map.first_row_on_top ? y + g.h : y;
+        double edge = y;
+        if (g.map.first_row_on_top) edge = y + g.h;
         d.marks.push_back(Stroke{{{x, edge}, {x + g.w, edge}}, ink, 1.5, 1});
       }
     }
@@ -120,10 +139,15 @@ void add_zero_line(Drawing& d, const Grid& g) {
 void add_x_axis(Drawing& d, const Grid& g) {
   for (std::size_t j = 0; j < g.map.x_names.size(); ++j) {
     const double x = g.x_of(static_cast<Eigen::Index>(j)) + g.w / 2;
-    const double size = g.turned ? std::min(13.0, g.w) : 13;  // as high as a narrow cell is wide
+    // as high as a narrow cell is wide
+    double size = 13;
+    if (g.turned) size = std::min(13.0, g.w);
     Label name = label(g.turned ? x + 0.3 * size : x, g.bottom() + (g.turned ? 8 : 18),
                        g.map.x_names[j], size);
-    if (g.turned) name.turned = 90, name.anchor = Label::Anchor::end;
+    if (g.turned) {
+      name.turned = 90;
+      name.anchor = Label::Anchor::end;
+    }
     d.marks.push_back(name);
   }
   if (!g.map.x_names.empty()) return;
@@ -161,11 +185,13 @@ std::vector<double> spread_ticks(const Grid& g, double from, double to) {
     for (double decade = std::pow(10, std::floor(std::log10(g.map.middle)) - 1);
          decade <= g.map.limit; decade *= 10)
       for (const double digit : {1.0, 2.0, 5.0}) {
-        const double value = sign * digit * decade, place = g.place(value);
+        const double value = sign * digit * decade;
+        const double place = g.place(value);
         if (value < from || value > to || std::abs(value) > g.map.limit ||
             std::abs(place - last) < nearest)
           continue;
-        at.push_back(value), last = place;
+        at.push_back(value);
+        last = place;
       }
   }
   return at;
@@ -175,19 +201,32 @@ std::vector<double> spread_ticks(const Grid& g, double from, double to) {
 void add_scale(Drawing& d, const Grid& g) {
   double low = 0, high = 0;
   for (Eigen::Index i = 0; i < g.map.values.size(); ++i)
-    if (const double v = g.map.values.data()[i]; std::isfinite(v))
-      low = std::min(low, v), high = std::max(high, v);
-  if (g.map.middle == 0 || high - low == 0) low = -g.map.limit, high = g.map.limit;
-  low = std::max(low, -g.map.limit), high = std::min(high, g.map.limit);
-  const double from = g.place(low), to = g.place(high);
-  const double x = g.left + g.width + 30, cells = 40, tall = std::max(g.height, 90.0),
-               step = tall / cells;
+    if (const double v = g.map.values.data()[i]; std::isfinite(v)) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  if (g.map.middle == 0 || high - low == 0) {
+    low = -g.map.limit;
+    high = g.map.limit;
+  }
+  low = std::max(low, -g.map.limit);
+  high = std::min(high, g.map.limit);
+  const double from = g.place(low);
+  const double to = g.place(high);
+  const double x = g.left + g.width + 30;
+  const double cells = 40;
+  const double tall = std::max(g.height, 90.0);
+  const double step = tall / cells;
   const double foot = std::max(g.bottom(), g.top + tall);
   for (int k = 0; k < cells; ++k)
     d.marks.push_back(box(x, foot - step * (k + 1), 16, step,
                           g.of_place(from + (to - from) * (k + 0.5) / cells), 0.5));
-  const std::vector<double> at =
-      g.map.middle == 0 ? ticks(low, high, 4) : spread_ticks(g, low, high);
+  std::vector<double> at;
+  if (g.map.middle == 0) {
+    at = ticks(low, high, 4);
+  } else {
+    at = spread_ticks(g, low, high);
+  }
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k)
     d.marks.push_back(label(x + 22, foot - tall * (g.place(at[k]) - from) / (to - from) + 4,
@@ -203,7 +242,8 @@ Drawing heat_map(const HeatMap& map, const Look& look) {
   const Grid g(map, look);
   Drawing d;
   const double x_label = map.x_label.empty() ? 0 : 28;
-  d.width = g.page, d.height = std::max(g.bottom() + g.below() + x_label, g.top + 90) + 14;
+  d.width = g.page;
+  d.height = std::max(g.bottom() + g.below() + x_label, g.top + 90) + 14;
   if (look.titles && !map.title.empty())
     d.marks.push_back(
         label(d.width / 2, 26, map.title,
@@ -234,18 +274,28 @@ Drawing bars(const Bars& b, const Look& look) {
   Drawing d;
   d.width = look.width.value_or(720);
   // the legend in as many rows as it needs
-  const double left = 76, right = 20, width = d.width - left - right;
+  const double left = 76;
+  const double right = 20;
+  const double width = d.width - left - right;
   const bool titled = look.titles && !b.title.empty();
-  const double first = titled ? 44 : 14, row = 18;
-  double x = left, legend = first;
+  const double first = titled ? 44 : 14;
+  const double row = 18;
+  double x = left;
+  double legend = first;
   std::vector<PagePoint> places;
   for (const std::string& name : b.series) {
     const double needed = 34 + text_width(name, 13);
-    if (x > left && x + needed > d.width - 8) x = left, legend += row;
+    if (x > left && x + needed > d.width - 8) {
+      x = left;
+      legend += row;
+    }
     places.push_back({x, legend});
     x += needed;
   }
-  const double top = legend + 36, height = look.width ? 0.5 * d.width : 330, bottom = top + height;
+  const double top = legend + 36;
+  double height = 330;
+  if (look.width) height = 0.5 * d.width;
+  const double bottom = top + height;
   d.height = bottom + 40;
   double most = 0;
   const MatX& tall = b.high.size() ? b.high : b.values;
@@ -267,17 +317,19 @@ Drawing bars(const Bars& b, const Look& look) {
     d.marks.push_back(label(left - 8, y_of(at[k]) + 4, texts[k], 13, Label::Anchor::end));
   }
   const auto n = b.values.rows();
-  const double group = width / static_cast<double>(b.values.cols()),
-               bar = 0.8 * group / static_cast<double>(n);
+  const double group = width / static_cast<double>(b.values.cols());
+  const double bar = 0.8 * group / static_cast<double>(n);
   for (Eigen::Index j = 0; j < b.values.cols(); ++j) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double x = left + group * (static_cast<double>(j) + 0.1) + bar * static_cast<double>(i),
-                   value = b.values(i, j);
+      const double x = left + group * (static_cast<double>(j) + 0.1) + bar * static_cast<double>(i);
+      const double value = b.values(i, j);
       if (!std::isfinite(value)) continue;
       d.marks.push_back(box(x, y_of(value), 0.9 * bar, bottom - y_of(value), colours[i % 7]));
       if (!b.low.size() || !std::isfinite(b.low(i, j)) || b.high(i, j) - b.low(i, j) < 1e-3 * most)
         continue;
-      const double c = x + 0.45 * bar, lo = y_of(b.low(i, j)), hi = y_of(b.high(i, j));
+      const double c = x + 0.45 * bar;
+      const double lo = y_of(b.low(i, j));
+      const double hi = y_of(b.high(i, j));
       d.marks.push_back(Stroke{{{c, lo}, {c, hi}}, ink, 1.2, 1});
       for (double y : {lo, hi})
         d.marks.push_back(Stroke{{{c - 0.2 * bar, y}, {c + 0.2 * bar, y}}, ink, 1.2, 1});

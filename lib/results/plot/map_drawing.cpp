@@ -27,7 +27,8 @@ Polygon part_of(const Polygon& polygon, auto&& f) {
   Polygon part;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double f_a = f(a), f_b = f(b);
+    const double f_a = f(a);
+    const double f_b = f(b);
     if (f_a >= 0) part.push_back(a);
     if ((f_a >= 0) == (f_b >= 0)) continue;
     const double s = f_a / (f_a - f_b);
@@ -49,9 +50,14 @@ struct Scale {
   Colour colour(int band) const {
     const int last = static_cast<int>(levels.size());
     const double step = levels[1] - levels[0];
-    const double middle = band == 0      ? levels.front() - 0.5 * step
-                          : band == last ? levels.back() + 0.5 * step
-                                         : 0.5 * (levels[band - 1] + levels[band]);
+    double middle = 0;
+    if (band == 0) {
+      middle = levels.front() - 0.5 * step;
+    } else if (band == last) {
+      middle = levels.back() + 0.5 * step;
+    } else {
+      middle = 0.5 * (levels[band - 1] + levels[band]);
+    }
     if (!is_signed)
       return scale_colour(
           (middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step), colours);
@@ -86,7 +92,8 @@ Window window_of(const std::vector<MapPanel>& panels, const MapStyle& style) {
 }
 
 Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const Window& window) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   const auto seen = [&](const PlanePoint& at) {
     return window.has(at);
   };
@@ -96,12 +103,21 @@ Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const
       });
   for (const MapPanel& panel : panels)
     for (std::size_t i = 0; i < panel.map->places.size(); ++i)
-      if (none || seen(panel.map->places[i]))
-        low = std::min(low, panel.map->values[i]), high = std::max(high, panel.map->values[i]);
-  const double least = low, most = high;
-  if (style.range) low = (*style.range)[0], high = (*style.range)[1];
-  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
-    low -= 0.5, high += 0.5;  // one value everywhere
+      if (none || seen(panel.map->places[i])) {
+        low = std::min(low, panel.map->values[i]);
+        high = std::max(high, panel.map->values[i]);
+      }
+  const double least = low;
+  const double most = high;
+  if (style.range) {
+    low = (*style.range)[0];
+    high = (*style.range)[1];
+  }
+  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)))) {
+    // one value everywhere
+    low -= 0.5;
+    high += 0.5;
+  }
   Scale scale;
   scale.levels = ticks(low, high, wished_bands);
   const double step = scale.levels[1] - scale.levels[0];
@@ -165,8 +181,8 @@ class Painter {
   // short lines on a raster, each in the direction of the facet that lies nearest
   void fibres(const SurfaceMap& map) {
     constexpr int raster = 9;
-    const double dx = (window_.x_high - window_.x_low) / raster,
-                 dz = (window_.z_high - window_.z_low) / raster;
+    const double dx = (window_.x_high - window_.x_low) / raster;
+    const double dz = (window_.z_high - window_.z_low) / raster;
     for (int i = 0; i < raster; ++i)
       for (int j = 0; j < raster && !map.fibres.empty(); ++j) {
         const PlanePoint at{window_.x_low + (i + 0.5) * dx, window_.z_low + (j + 0.5) * dz};
@@ -177,7 +193,10 @@ class Painter {
           for (int node : map.facets[f])
             for (int c = 0; c < 2; ++c) centre[c] += map.places[node][c] / 4;
           const double d = std::hypot(centre[0] - at[0], centre[1] - at[1]);
-          if (d < nearest) nearest = d, a = map.fibres[f];
+          if (d < nearest) {
+            nearest = d;
+            a = map.fibres[f];
+          }
         }
         const double half = 0.3 * std::min(dx, dz);
         line({at[0] - half * a[0], at[1] - half * a[1]}, {at[0] + half * a[0], at[1] + half * a[1]},
@@ -200,12 +219,16 @@ class Painter {
     }
   }
   void frame(bool x_axis, bool z_axis) {
-    const PagePoint a = page({window_.x_low, window_.z_low}),
-                    b = page({window_.x_high, window_.z_high});
+    const PagePoint a = page({window_.x_low, window_.z_low});
+    const PagePoint b = page({window_.x_high, window_.z_high});
     drawing_.marks.push_back(Stroke{{a, {b[0], a[1]}, b, {a[0], b[1]}, a}, ink, 0.8});
     for (int axis = 0; axis < 2; ++axis) {
-      const std::vector<double> at = axis == 0 ? ticks(window_.x_low, window_.x_high, 4)
-                                               : ticks(window_.z_low, window_.z_high, 4);
+      std::vector<double> at;
+      if (axis == 0) {
+        at = ticks(window_.x_low, window_.x_high, 4);
+      } else {
+        at = ticks(window_.z_low, window_.z_high, 4);
+      }
       const std::vector<std::string> texts = tick_texts(at);
       for (std::size_t i = 0; i < at.size(); ++i) {
         const PagePoint p =
@@ -222,7 +245,12 @@ class Painter {
           Label{{0.5 * (a[0] + b[0]), b[1] + 36}, "x (mm)", 13, Label::Anchor::middle});
     if (z_axis) {  // clear of the numbers: between the upper two
       const std::vector<double> at = ticks(window_.z_low, window_.z_high, 4);
-      const double z = at.size() < 2 ? window_.z_low : 0.5 * (at[0] + at[1]);
+      double z = 0;
+      if (at.size() < 2) {
+        z = window_.z_low;
+      } else {
+        z = 0.5 * (at[0] + at[1]);
+      }
       drawing_.marks.push_back(
           Label{{a[0] - 8, page({0, z})[1] + 4}, "z (mm)", 13, Label::Anchor::end});
     }
@@ -248,8 +276,12 @@ class Painter {
   void paint(const Polygon& whole) {
     const Polygon polygon = window_.part(whole);
     if (polygon.size() < 3) return;
-    double low = polygon[0].value, high = low;
-    for (const Corner& c : polygon) low = std::min(low, c.value), high = std::max(high, c.value);
+    double low = polygon[0].value;
+    double high = low;
+    for (const Corner& c : polygon) {
+      low = std::min(low, c.value);
+      high = std::max(high, c.value);
+    }
     patch(polygon, scale_.band(low));
     for (int band = scale_.band(low) + 1; band <= scale_.band(high); ++band) {
       const Polygon part =
@@ -279,7 +311,8 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
            height * (scale.levels.back() - level) / (scale.levels.back() - scale.levels.front());
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const double y0 = y(scale.levels[i + 1]), y1 = y(scale.levels[i]);
+    const double y0 = y(scale.levels[i + 1]);
+    const double y1 = y(scale.levels[i]);
     drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}},
                                   scale.colour(static_cast<int>(i) + 1),
                                   0.4});
@@ -324,31 +357,43 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
                     const Look& look) {
   const Window window = window_of(panels, style);
   Scale scale = scale_of(panels, style, window);
-  scale.colours = look.colours, scale.signed_colours = look.signed_colours;
+  scale.colours = look.colours;
+  scale.signed_colours = look.signed_colours;
   const int n = static_cast<int>(panels.size());
   columns = std::clamp(columns, 1, n);
   const int rows = (n + columns - 1) / columns;
   const bool titled =
       std::any_of(panels.begin(), panels.end(), [](const MapPanel& p) { return !p.title.empty(); });
-  const double bar_room = look.width && *look.width < 500 ? 110 : 178;
-  const double liked = columns == 1 ? 460 : columns == 2 ? 340 : 260;  // width of a panel
-  const double width =
-      look.width
-          ? std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns)
-          : liked;
-  const double k = width / (window.x_high - window.x_low),
-               height = k * (window.z_high - window.z_low);
-  const double panel_title = titled ? 24 : 8,
-               title_room = style.title.empty() || !look.titles ? 8 : 38;
+  double bar_room = 178;
+  if (look.width && *look.width < 500) bar_room = 110;
+  // width of a panel
+  double liked = 0;
+  if (columns == 1) {
+    liked = 460;
+  } else if (columns == 2) {
+    liked = 340;
+  } else {
+    liked = 260;
+  }
+  double width = liked;
+  if (look.width) {
+    width = std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns);
+  }
+  const double k = width / (window.x_high - window.x_low);
+  const double height = k * (window.z_high - window.z_low);
+  const double panel_title = titled ? 24 : 8;
+  double title_room = 38;
+  if (style.title.empty() || !look.titles) title_room = 8;
 
   Drawing drawing;
   drawing.width = std::round(left_room + columns * width + (columns - 1) * gap + bar_room);
   drawing.height = std::round(title_room + std::max(190.0, rows * (height + panel_title)) +
                               bottom_room);  // the colour bar needs that
   for (int i = 0; i < n; ++i) {
-    const int row = i / columns, column = i % columns;
-    const double left = left_room + column * (width + gap),
-                 top = title_room + row * (height + panel_title) + panel_title;
+    const int row = i / columns;
+    const int column = i % columns;
+    const double left = left_room + column * (width + gap);
+    const double top = title_room + row * (height + panel_title) + panel_title;
     Painter painter(drawing, window, scale, left, top, k);
     const SurfaceMap& map = *panels[i].map;
     painter.field(map);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/mesh/section.hpp"
 #include "results/plot/gnuplot.hpp"
 #include "results/post/curves.hpp"
@@ -31,8 +32,8 @@ bool fits_a_name(char c) {
 
 std::string known(const std::vector<std::string>& names) {
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none at all" : list;
+  for (const std::string& name : names) append(list, ", ", name);
+  return text_or(list, "none at all");
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {

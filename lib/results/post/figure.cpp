@@ -7,6 +7,7 @@
 
 #include "core/base/csv_table.hpp"
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 
 namespace langer {
@@ -61,8 +62,7 @@ std::vector<Complaint> complaints(const FigureChoice& figure,
     if (find(columns, name)) return;
     const std::string near = nearest(name, known);
     found.push_back({key, fmt::format("there is no column \"{}\"", name),
-                     fmt::format("one of {}", fmt::join(known, ", ")),
-                     near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                     fmt::format("one of {}", fmt::join(known, ", ")), did_you_mean(near)});
   };
   check("x", figure.x);
   for (std::size_t i = 0; i < figure.y.size(); ++i) check(fmt::format("y[{}]", i), figure.y[i]);

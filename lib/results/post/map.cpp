@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/mesh/facets.hpp"
 
 namespace langer {
@@ -30,7 +31,7 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
     found.push_back(
         {key, fmt::format("the mesh has no {} called \"{}\"", kind, name),
          known.empty() ? "none at all" : fmt::format("one of {}", fmt::join(known, ", ")),
-         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+         did_you_mean(near)});
   };
   if (mesh.section)
     return {{"on", "facets of a section, which are lines", "a body in three dimensions",

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/seal.hpp"
 #include "core/hdf5/unit_attribute.hpp"
@@ -15,8 +16,15 @@ namespace langer {
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
   std::string word;
-  for (char c : unit.starts_with("1/") ? unit.substr(1) : unit)
-    word += c == '/' ? (word.empty() ? "per_" : "_per_") : c == ' ' ? "_" : std::string(1, c);
+  for (char c : unit.starts_with("1/") ? unit.substr(1) : unit) {
+    if (c == '/') {
+      word += (word.empty() ? "per_" : "_per_");
+    } else if (c == ' ') {
+      word += "_";
+    } else {
+      word += std::string(1, c);
+    }
+  }
   return name + "_" + word;
 }
 
@@ -25,13 +33,24 @@ std::string csv_cell(const std::string& text) {
       !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '#');
   if (!blank && text.find_first_of(",;\"\n\r\t") == std::string::npos) return text;
   std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : text) {
+    if (c == '"') {
+      quoted += std::string("\"\"");
+    } else {
+      quoted += std::string(1, c);
+    }
+  }
   return quoted + "\"";
 }
 
 std::string csv(const std::vector<Column>& columns) {
   std::string text;
-  const std::size_t rows = columns.empty() ? 0 : columns[0].values.size();
+  std::size_t rows = 0;
+  if (columns.empty()) {
+    rows = 0;
+  } else {
+    rows = columns[0].values.size();
+  }
   for (const Column& c : columns) {
     if (c.values.size() != rows)
       throw Failure(Exit::bug, Error{{},
@@ -39,7 +58,7 @@ std::string csv(const std::vector<Column>& columns) {
                                      fmt::format("{} values", c.values.size()),
                                      fmt::format("{} rows", rows),
                                      ""});
-    text += (text.empty() ? "" : ",") + csv_cell(csv_name(c.name, c.unit));
+    append(text, ",", csv_cell(csv_name(c.name, c.unit)));
   }
   text += "\n";
   for (std::size_t i = 0; i < rows; ++i)
@@ -75,7 +94,8 @@ std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
 }
 
 void write_map(const h5::Group& group, const SurfaceMap& map) {
-  const std::size_t n = map.places.size(), m = map.facets.size();
+  const std::size_t n = map.places.size();
+  const std::size_t m = map.facets.size();
   group.write_scalar("t", map.t, "-");
   group.write<double>("places", {n, 2}, flat<double>(map.places), "mm");
   group.write<double>("values", {n}, map.values, map.unit);
@@ -84,8 +104,10 @@ void write_map(const h5::Group& group, const SurfaceMap& map) {
   group.write<double>("fibres", {map.fibres.size(), 2}, flat<double>(map.fibres), "-");
   std::string names;
   std::vector<std::array<double, 2>> points;
-  for (const auto& [name, at] : map.points)
-    names += (names.empty() ? "" : " ") + name, points.push_back(at);
+  for (const auto& [name, at] : map.points) {
+    append(names, " ", name);
+    points.push_back(at);
+  }
   group.write<double>("points", {points.size(), 2}, flat<double>(points), "mm");
   group.annotate("points", "names", names);
 }
@@ -129,8 +151,8 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
                     csv(all.columns));
   h5::File file = h5::File::create(path);
   write_identity(file.root(), curves_schema, identity);
-  const h5::Group curves = file.root().make_group("curves"),
-                  columns = file.root().make_group("columns");
+  const h5::Group curves = file.root().make_group("curves");
+  const h5::Group columns = file.root().make_group("columns");
   for (const NamedCurve& c : all.curves) {
     const h5::Group one = curves.make_group(c.name);
     one.write<double>("x", {c.x.size()}, c.x, c.x_unit);
@@ -141,7 +163,7 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
   std::string order;
   for (const Column& c : all.columns) {
     columns.write<double>(c.name, {c.values.size()}, c.values, c.unit);
-    order += (order.empty() ? "" : " ") + c.name;
+    append(order, " ", c.name);
   }
   columns.attribute("order", order);
   if (!all.maps.empty()) {
@@ -156,7 +178,8 @@ CurvesFile read_curves(const std::string& path) {
   const h5::File file = h5::File::open(path);
   CurvesFile result;
   result.content_id = content_id(read_identity(file.root(), curves_schema), curves_schema.version);
-  const h5::Group curves = file.root().group("curves"), columns = file.root().group("columns");
+  const h5::Group curves = file.root().group("curves");
+  const h5::Group columns = file.root().group("columns");
   for (const std::string& name : curves.groups()) {
     const h5::Group one = curves.group(name);
     NamedCurve c{name,

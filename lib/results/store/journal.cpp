@@ -37,7 +37,9 @@ bool read_at(int fd, std::uint64_t at, void* to, std::uint64_t bytes) {
     const ssize_t n =
         ::pread(fd, place, std::min<std::uint64_t>(bytes, 1u << 30), static_cast<off_t>(at));
     if (n <= 0) return false;
-    place += n, at += static_cast<std::uint64_t>(n), bytes -= static_cast<std::uint64_t>(n);
+    place += n;
+    at += static_cast<std::uint64_t>(n);
+    bytes -= static_cast<std::uint64_t>(n);
   }
   return true;
 }
@@ -58,7 +60,8 @@ std::string_view bytes_of(const std::uint64_t& word) {
 
 std::uint64_t size_of(int fd) {
   struct stat file {};
-  return ::fstat(fd, &file) == 0 ? static_cast<std::uint64_t>(file.st_size) : 0;
+  if (::fstat(fd, &file) == 0) return static_cast<std::uint64_t>(file.st_size);
+  return 0;
 }
 
 }  // namespace
@@ -77,8 +80,10 @@ Journal::Journal(const std::string& path) : path_(path) {
   if (size_of(fd_) == 0)
     clear();
   else if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic &&
-           read_at(fd_, magic.size(), &seed, sizeof seed))
-    end_ = header, chain_ = seed;
+           read_at(fd_, magic.size(), &seed, sizeof seed)) {
+    end_ = header;
+    chain_ = seed;
+  }
 }
 
 Journal::~Journal() {
@@ -96,12 +101,15 @@ std::optional<std::string> Journal::next() {
   if (!read_at(fd_, at, record.data(), length) || !read_at(fd_, at + length, &sum, sizeof sum))
     return {};
   if (sum != checksum(record, chain_)) return {};
-  end_before_ = std::exchange(end_, at + length + sizeof sum),
+  end_before_ = std::exchange(end_, at + length + sizeof sum);
   chain_before_ = std::exchange(chain_, sum);
   return record;
 }
 
-void Journal::put_back() { end_ = end_before_, chain_ = chain_before_; }
+void Journal::put_back() {
+  end_ = end_before_;
+  chain_ = chain_before_;
+}
 
 bool Journal::at_end() const { return end_ > 0 && end_ == size_of(fd_); }
 
@@ -118,8 +126,10 @@ void Journal::clear() {
 
 void Journal::append(std::string_view record) {
   if (end_ == 0) clear();
-  const std::uint64_t length = record.size(), sum = checksum(record, chain_);
-  const std::uint64_t at = end_ + sizeof length, behind = at + length + sizeof sum;
+  const std::uint64_t length = record.size();
+  const std::uint64_t sum = checksum(record, chain_);
+  const std::uint64_t at = end_ + sizeof length;
+  const std::uint64_t behind = at + length + sizeof sum;
   // what was damaged goes first, so that nothing of it stands behind the new end
   if (size_of(fd_) > end_ && ::ftruncate(fd_, static_cast<off_t>(end_)) != 0)
     cannot_write(path_, "");
@@ -132,7 +142,8 @@ void Journal::append(std::string_view record) {
     errno = reason;
     cannot_write(path_, "is the disk full?");
   }
-  end_ = behind, chain_ = sum;
+  end_ = behind;
+  chain_ = sum;
   if (std::chrono::steady_clock::now() - synced_ > std::chrono::seconds(1)) sync();
 }
 

@@ -74,7 +74,8 @@ void read_member(const h5::Group& group, const Member& m, const std::string& nam
     for_each_alternative<V>([&](auto alternative) {
       if (found || !choice.has(decltype(alternative)::key)) return;
       read_listing(choice.group(decltype(alternative)::key), alternative);
-      value = alternative, found = true;
+      value = alternative;
+      found = true;
     });
     if (!found) group.refuse(name, "no known alternative", type_words<V>(m));
   } else if constexpr (is_vector<V>) {

@@ -11,6 +11,7 @@
 
 #include "core/base/memory.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "core/base/version.hpp"
 #include "core/hdf5/unit_attribute.hpp"
 
@@ -26,7 +27,7 @@ namespace {
 
 std::string joined(const std::map<std::string, std::string>& inputs) {
   std::string text;
-  for (const auto& [port, id] : inputs) text += (text.empty() ? "" : " ") + port + "=" + id;
+  for (const auto& [port, id] : inputs) append(text, " ", port + "=" + id);
   return text;
 }
 
@@ -70,7 +71,8 @@ std::string utc_now() {
 
 std::string host_name() {
   char name[256] = "";
-  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+  if (gethostname(name, sizeof name - 1) == 0) return name;
+  return "";
 }
 
 std::string content_id(const Identity& identity, int schema_version) {

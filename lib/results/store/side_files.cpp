@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path folder_of(const fs::path& output) {
-  return output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (output.has_parent_path()) return output.parent_path();
+  return fs::path(".");
 }
 
 // yeoh.h5 -> yeoh_files
@@ -60,10 +61,16 @@ std::string plain_owner(const fs::path& output, const std::string& stage, bool f
   std::sort(entries.begin(), entries.end());
   for (const fs::path& entry : entries) {
     const bool is_lock = entry.extension() == ".lock";
-    const fs::path other = is_lock ? fs::path(entry).replace_extension() : entry;
+    fs::path other = entry;
+    if (is_lock) other = fs::path(entry).replace_extension();
     if (other.extension() != ".h5" || other.filename() == output.filename()) continue;
     if (fs::is_directory(own_folder_of(other), none)) continue;
-    const bool owns = is_lock ? is_running(entry, stage) : finished && is_made_by(entry, stage);
+    bool owns = false;
+    if (is_lock) {
+      owns = is_running(entry, stage);
+    } else {
+      owns = finished && is_made_by(entry, stage);
+    }
     if (owns) return other.filename().string();
   }
   return "";

@@ -64,7 +64,8 @@ struct SolutionHeader {
 
   // one for all cells, or one for each body
   std::vector<Material> laws() const {
-    return materials.empty() ? std::vector{material} : materials;
+    if (materials.empty()) return std::vector{material};
+    return materials;
   }
 };
 

@@ -131,16 +131,18 @@ std::vector<Summary> SolutionReader::summary() const { return read_summary(state
 const std::string& SolutionReader::content_id() const { return state_->id; }
 
 StepRecord SolutionReader::step(int index) const {
-  const std::size_t i = static_cast<std::size_t>(index), n = state_->header.mesh.X.size(),
-                    e = static_cast<std::size_t>(state_->header.mesh.n_cells());
+  const std::size_t i = static_cast<std::size_t>(index);
+  const std::size_t n = state_->header.mesh.X.size();
+  const std::size_t e = static_cast<std::size_t>(state_->header.mesh.n_cells());
   if (index < 0 || i >= state_->n_steps)
     throw Failure(Exit::bug, Error{{},
                                    "SolutionReader::step",
                                    std::to_string(index),
                                    fmt::format("0 to {}", n_steps() - 1),
                                    ""});
-  const h5::Group root = state_->file.root(), history = root.group("history"),
-                  grid = root.group("VTKHDF");
+  const h5::Group root = state_->file.root();
+  const h5::Group history = root.group("history");
+  const h5::Group grid = root.group("VTKHDF");
   StepRecord record;
   record.t = one(history, "t", i);
   record.increment = one(history, "increment", i);
@@ -150,7 +152,8 @@ StepRecord SolutionReader::step(int index) const {
   for (const std::string& name : history.datasets())
     if (!solution::among(solution::histories, name)) record.scalars[name] = one(history, name, i);
 
-  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData");
+  const h5::Group points = grid.group("PointData");
+  const h5::Group cells = grid.group("CellData");
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
   record.reaction = vectors(finite_rows(points, "reaction", i * n, n, {3}));
   for (const std::string& name : points.datasets())

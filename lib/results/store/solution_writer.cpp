@@ -124,7 +124,8 @@ void SolutionWriter::State::begin() {
     for (std::size_t b = 0; b < header.materials.size(); ++b)
       write_listing(materials.make_group(std::to_string(b)), header.materials[b]);
   }
-  const int families = header.directions.from_field() ? header.directions.n_families() : 0;
+  int families = 0;
+  if (header.directions.from_field()) families = header.directions.n_families();
   for (int k = 0; k < families; ++k) {
     std::vector<Vec3> directions;  // zero in cells without this family
     for (int e = 0; e < header.mesh.n_cells(); ++e) {
@@ -200,12 +201,16 @@ void SolutionWriter::State::append(const StepRecord& record) {
   if (journal)
     journal->append(
         record);  // from here on the step has been made, whatever becomes of the HDF5 file
-  const h5::Group root = file.root(), grid = root.group("VTKHDF"), history = root.group("history");
-  const std::size_t n = header.mesh.X.size(), e = static_cast<std::size_t>(header.mesh.n_cells());
-  const h5::Group points = grid.group("PointData"), cells = grid.group("CellData"),
-                  steps = grid.group("Steps");
-  const h5::Group point_offsets = steps.group("PointDataOffsets"),
-                  cell_offsets = steps.group("CellDataOffsets");
+  const h5::Group root = file.root();
+  const h5::Group grid = root.group("VTKHDF");
+  const h5::Group history = root.group("history");
+  const std::size_t n = header.mesh.X.size();
+  const std::size_t e = static_cast<std::size_t>(header.mesh.n_cells());
+  const h5::Group points = grid.group("PointData");
+  const h5::Group cells = grid.group("CellData");
+  const h5::Group steps = grid.group("Steps");
+  const h5::Group point_offsets = steps.group("PointDataOffsets");
+  const h5::Group cell_offsets = steps.group("CellDataOffsets");
   extend<double>(points, "u", {3}, n, flat(record.u), "mm");
   extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
   for (const char* name : {"u", "reaction"})
@@ -251,7 +256,8 @@ void SolutionWriter::State::append(const StepRecord& record) {
 }
 
 void SolutionWriter::State::contact(const StepRecord& record) {
-  const h5::Group root = file.root(), history = root.group("history");
+  const h5::Group root = file.root();
+  const h5::Group history = root.group("history");
   add(history, "u_ind", record.u_ind, "mm");
   add(history, "force_ind", record.force_ind, "N");
   std::int64_t counts[3] = {0, 0, 0};

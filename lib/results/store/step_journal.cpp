@@ -20,10 +20,16 @@ class Packer {
   void put(const auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  void put(const std::string& text) { put(text.size()), bytes += text; }
+  void put(const std::string& text) {
+    put(text.size());
+    bytes += text;
+  }
   void put(const Vec3& v) { put_all(v.data(), 3); }
   void put(const Mat3& m) { put_all(m.data(), 9); }
-  void put(const Facet& f) { put(f.cell), put(f.local); }
+  void put(const Facet& f) {
+    put(f.cell);
+    put(f.local);
+  }
   template <class T>
   void put(const std::vector<T>& list) {
     put(list.size());
@@ -35,10 +41,18 @@ class Packer {
   template <class T>
   void put(const std::map<std::string, T>& map) {
     put(map.size());
-    for (const auto& [name, value] : map) put(name), put(value);
+    for (const auto& [name, value] : map) {
+      put(name);
+      put(value);
+    }
   }
   void put(const ContactRecord& c) {
-    put(c.r), put(c.status), put(c.gap), put(c.beta), put(c.bonded_at), put(c.adhesive);
+    put(c.r);
+    put(c.status);
+    put(c.gap);
+    put(c.beta);
+    put(c.bonded_at);
+    put(c.adhesive);
   }
 
  private:
@@ -56,7 +70,10 @@ class Unpacker {
   void get(auto& value) requires std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>> {
     copy(&value, sizeof value);
   }
-  void get(std::string& text) { text.resize(length(1)), copy(text.data(), text.size()); }
+  void get(std::string& text) {
+    text.resize(length(1));
+    copy(text.data(), text.size());
+  }
   void get(Vec3& v) { copy(v.data(), 3 * sizeof(double)); }
   template <class T>
   void get(std::vector<T>& list) {
@@ -70,11 +87,17 @@ class Unpacker {
   void get(std::map<std::string, T>& map) {
     for (std::size_t n = length(1); n > 0 && good; --n) {
       std::string name;
-      get(name), get(map[name]);
+      get(name);
+      get(map[name]);
     }
   }
   void get(ContactRecord& c) {
-    get(c.r), get(c.status), get(c.gap), get(c.beta), get(c.bonded_at), get(c.adhesive);
+    get(c.r);
+    get(c.status);
+    get(c.gap);
+    get(c.beta);
+    get(c.bonded_at);
+    get(c.adhesive);
   }
 
  private:
@@ -96,9 +119,18 @@ class Unpacker {
 enum Kind : char { of_task = 'T', of_run = 'R', of_step = 'S' };
 
 void each_field(auto& r, auto&& field) {
-  field(r.t), field(r.increment), field(r.iterations), field(r.residual), field(r.u),
-      field(r.reaction), field(r.point_fields), field(r.cell_fields);
-  field(r.scalars), field(r.u_ind), field(r.force_ind), field(r.contacts);
+  field(r.t);
+  field(r.increment);
+  field(r.iterations);
+  field(r.residual);
+  field(r.u);
+  field(r.reaction);
+  field(r.point_fields);
+  field(r.cell_fields);
+  field(r.scalars);
+  field(r.u_ind);
+  field(r.force_ind);
+  field(r.contacts);
 }
 
 std::string packed(const StepRecord& record) {
@@ -112,7 +144,8 @@ std::optional<StepRecord> unpacked_step(std::string_view bytes) {
   StepRecord record;
   Unpacker u(bytes);
   each_field(record, [&](auto& value) { u.get(value); });
-  return u.done() ? std::optional(record) : std::nullopt;
+  if (u.done()) return std::optional(record);
+  return std::nullopt;
 }
 
 std::string packed_run(const Identity& identity) {
@@ -151,8 +184,10 @@ Task task_of(const SolutionHeader& header) {
   const Mesh& mesh = header.mesh;
   arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity),
       arrays.put(mesh.body), arrays.put(mesh.frames);
-  arrays.put(mesh.node_sets), arrays.put(mesh.facet_sets), arrays.put(field_of(header)),
-      arrays.put(header.contact_nodes);
+  arrays.put(mesh.node_sets);
+  arrays.put(mesh.facet_sets);
+  arrays.put(field_of(header));
+  arrays.put(header.contact_nodes);
   if (mesh.section) arrays.put(static_cast<int>(mesh.section->of)), arrays.put(mesh.section->depth);
   const Identity& identity = header.identity;
   const std::string& steps =
@@ -172,10 +207,13 @@ std::string packed(const Task& t) {
 std::string difference(std::string_view record, const Task& is) {
   Task was;
   Unpacker u(record.substr(1));
-  u.get(was.code), u.get(was.config), u.get(was.arrays);
+  u.get(was.code);
+  u.get(was.config);
+  u.get(was.arrays);
   if (!u.done() || was.code != is.code) return "left by another version of langer";
   if (was.config != is.config) return "left by a run with another config or other inputs";
-  return was.arrays != is.arrays ? "left by a run with another mesh" : "";
+  if (was.arrays != is.arrays) return "left by a run with another mesh";
+  return "";
 }
 
 }  // namespace
@@ -187,11 +225,15 @@ StepJournal::StepJournal(const std::string& output, const SolutionHeader& header
   const Task task = task_of(header);
   const std::optional<std::string> first = journal_.next();
   std::string why;  // nothing is kept
-  if (!first)
-    why = !journal_.at_end() ? "is damaged"
-          : has_part         ? "left by a version of langer that kept no checksums"
-                             : "";
-  else if (!has_part)  // whoever removes it wants to begin anew
+  if (!first) {
+    if (!journal_.at_end()) {
+      why = "is damaged";
+    } else if (has_part) {
+      why = "left by a version of langer that kept no checksums";
+    } else {
+      why = "";
+    }
+  } else if (!has_part)  // whoever removes it wants to begin anew
     why = "is without its " + part;
   else
     why = difference(*first, task);
@@ -218,8 +260,10 @@ void StepJournal::replay(const Take& take) {
     dropped = !step || earlier_.empty() || !take(*step, earlier_.back());
     if (dropped)
       journal_.put_back();
-    else
-      ++earlier_.back().steps, ++steps;
+    else {
+      ++earlier_.back().steps;
+      ++steps;
+    }
   }
   if (!dropped && !journal_.at_end())
     say_line("{}: damaged, or a step was cut off; continuing after the {} steps before",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.hpp"
 #include "results/store/matrices.hpp"
 
 namespace langer {
@@ -48,7 +49,9 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
       for (std::size_t j = 0; j < a.relative.size(); ++j)
         relative(static_cast<Eigen::Index>(tests.size()), static_cast<Eigen::Index>(j)) =
             a.relative[j];
-      tests.push_back(a.test), worst.push_back(a.worst), gain.push_back(a.gain);
+      tests.push_back(a.test);
+      worst.push_back(a.worst);
+      gain.push_back(a.gain);
     }
     advice.attribute("tests", fmt::format("{}", fmt::join(tests, "; ")));
     write_vector(advice, "worst", worst, "-");
@@ -62,7 +65,7 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   group.attribute("verdict", r.verdict);
   std::string order;
   for (Path path : all_paths)
-    order += (order.empty() ? "" : " ") + std::string(names(path)[static_cast<std::size_t>(path)]);
+    append(order, " ", std::string(names(path)[static_cast<std::size_t>(path)]));
   group.attribute("paths", order);
   write_vector(group, "amount", map.amount, "-");
   write_vector(group, "angle", map.angle, "deg");
@@ -70,12 +73,14 @@ void write_stability(const h5::Group& group, const StabilityRecord& r) {
   write_matrix(group, "plane", map.plane, "MPa");
   group.write_scalar("safe_hencky", map.safe_hencky, "-");
   group.write_scalar("hencky_end", map.hencky_end, "-");
-  const std::size_t paths = all_paths.size(), angles = map.angle.size(),
-                    amounts = map.amount.size();
+  const std::size_t paths = all_paths.size();
+  const std::size_t angles = map.angle.size();
+  const std::size_t amounts = map.amount.size();
   std::vector<double> slope_loss, ellipticity_loss, end, nominal, slope, ellipticity;
   for (const PathStability& p : map.paths) {
-    slope_loss.push_back(p.slope_loss), ellipticity_loss.push_back(p.ellipticity_loss),
-        end.push_back(p.end);
+    slope_loss.push_back(p.slope_loss);
+    ellipticity_loss.push_back(p.ellipticity_loss);
+    end.push_back(p.end);
     nominal.insert(nominal.end(), p.nominal.begin(), p.nominal.end());
     slope.insert(slope.end(), p.slope.begin(), p.slope.end());
     ellipticity.insert(ellipticity.end(), p.ellipticity.begin(), p.ellipticity.end());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/unit_attribute.hpp"
 #include "mechanics/mesh/hanging.hpp"
 #include "mechanics/mesh/reference.hpp"
@@ -69,8 +70,9 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   const h5::Group grid = root.make_group("VTKHDF");
   grid.attribute("Version", version);
   grid.attribute("Type", std::string("UnstructuredGrid"));
-  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()),
-                    per_cell = nodes_per_cell(mesh.type);
+  const std::size_t n = mesh.X.size();
+  const std::size_t e = static_cast<std::size_t>(mesh.n_cells());
+  const std::size_t per_cell = nodes_per_cell(mesh.type);
   write_integers(grid, "NumberOfPoints", {1}, {static_cast<std::int64_t>(n)});
   write_integers(grid, "NumberOfCells", {1}, {static_cast<std::int64_t>(e)});
   write_integers(grid, "NumberOfConnectivityIds", {1}, {static_cast<std::int64_t>(e * per_cell)});
@@ -86,7 +88,7 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   const h5::Group cells = grid.make_group("CellData");
   write_integers(cells, "body", {e}, {mesh.body.begin(), mesh.body.end()});
   std::string names;
-  for (const std::string& body : mesh.bodies) names += (names.empty() ? "" : " ") + body;
+  for (const std::string& body : mesh.bodies) append(names, " ", body);
   cells.annotate("body", "names", names);
   for (int i = 0; i < 3; ++i) {
     std::vector<Vec3> column;
@@ -97,8 +99,9 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
 }
 
 void write_sets(const h5::Group& root, const Mesh& mesh) {
-  const h5::Group sets = root.make_group("sets"), nodes = sets.make_group("nodes"),
-                  facets = sets.make_group("facets");
+  const h5::Group sets = root.make_group("sets");
+  const h5::Group nodes = sets.make_group("nodes");
+  const h5::Group facets = sets.make_group("facets");
   for (const auto& [name, set] : mesh.node_sets)
     write_integers(nodes, name, {set.size()}, {set.begin(), set.end()});
   for (const auto& [name, set] : mesh.facet_sets) {
@@ -120,15 +123,18 @@ void write_hanging(const h5::Group& root, const Mesh& mesh) {
   if (mesh.hanging.empty()) return;
   const h5::Group group = root.make_group("hanging");
   Integers nodes, of;
-  for (const HangingNode& h : mesh.hanging)
-    nodes.push_back(h.node), of.insert(of.end(), h.of.begin(), h.of.end());
+  for (const HangingNode& h : mesh.hanging) {
+    nodes.push_back(h.node);
+    of.insert(of.end(), h.of.begin(), h.of.end());
+  }
   write_integers(group, "node", {nodes.size()}, nodes);
   write_integers(group, "of", {nodes.size(), 4}, of);
 }
 
 Schema schema_of(const Schema& schema, const Mesh& mesh) {
   if (!mesh.hanging.empty()) return {schema.name, 3};
-  return mesh.section ? Schema{schema.name, 2} : schema;
+  if (mesh.section) return Schema{schema.name, 2};
+  return schema;
 }
 
 namespace {
@@ -150,8 +156,8 @@ void read_hanging(const h5::Group& root, Mesh& mesh) {
   if (!root.has("hanging")) return;
   const h5::Group group = root.group("hanging");
   const auto below = static_cast<std::int64_t>(mesh.X.size());
-  const std::vector<int> nodes = indices(group, "node", {h5::any}, below),
-                         of = indices(group, "of", {nodes.size(), 4}, below);
+  const std::vector<int> nodes = indices(group, "node", {h5::any}, below);
+  const std::vector<int> of = indices(group, "of", {nodes.size(), 4}, below);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     mesh.hanging.push_back({nodes[i], {of[4 * i], of[4 * i + 1], of[4 * i + 2], of[4 * i + 3]}});
   if (const std::string fault = hanging_fault(mesh); !fault.empty())
@@ -176,10 +182,11 @@ CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) 
 }  // namespace
 
 Mesh read_grid(const h5::Group& root) {
-  const h5::Group grid = root.group("VTKHDF"), cells = grid.group("CellData");
+  const h5::Group grid = root.group("VTKHDF");
+  const h5::Group cells = grid.group("CellData");
   Mesh mesh;
-  const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints")),
-                    e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
+  const std::size_t n = static_cast<std::size_t>(count(grid, "NumberOfPoints"));
+  const std::size_t e = static_cast<std::size_t>(count(grid, "NumberOfCells"));
   const auto types = grid.read<std::uint8_t>("Types", {e}).values;
   mesh.type = type_of(grid, types);
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
@@ -199,8 +206,9 @@ Mesh read_grid(const h5::Group& root) {
   for (std::size_t i = 0; i < e; ++i)
     mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
 
-  const h5::Group sets = root.group("sets"), nodes = sets.group("nodes"),
-                  facets = sets.group("facets");
+  const h5::Group sets = root.group("sets");
+  const h5::Group nodes = sets.group("nodes");
+  const h5::Group facets = sets.group("facets");
   for (const std::string& name : nodes.datasets())
     mesh.node_sets[name] = indices(nodes, name, {h5::any}, static_cast<std::int64_t>(n));
   for (const std::string& name : facets.datasets()) {

@@ -26,9 +26,12 @@ std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t
         sizes(n), place);
   };
   if (array.of_mesh) return item(rows);
-  const std::string window =
-      many ? fmt::format("{} 0 1 1 {} {}", step * rows, rows, array.components)
-           : fmt::format("{} 1 {}", step * rows, rows);
+  std::string window;
+  if (many) {
+    window = fmt::format("{} 0 1 1 {} {}", step * rows, rows, array.components);
+  } else {
+    window = fmt::format("{} 1 {}", step * rows, rows);
+  }
   return fmt::format(
       "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Format=\"XML\" Dimensions=\"3 {}\">{}</DataItem>{}</DataItem>",
       sizes(rows), many ? 2 : 1, window, item(rows * n_steps));
@@ -38,13 +41,15 @@ std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t
 
 std::string without_xdmf(const Mesh& mesh) {
   const int type = mesh.cell().names.vtk;
-  return type == vtk_hexahedron || type == vtk_triquadratic ? "" : "XDMF has no cells of this kind";
+  if (type == vtk_hexahedron || type == vtk_triquadratic) return "";
+  return "XDMF has no cells of this kind";
 }
 
 std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<double>& times,
                  const std::vector<XdmfArray>& arrays) {
-  const std::size_t n = mesh.X.size(), e = static_cast<std::size_t>(mesh.n_cells()),
-                    per_cell = nodes_per_cell(mesh.type);
+  const std::size_t n = mesh.X.size();
+  const std::size_t e = static_cast<std::size_t>(mesh.n_cells());
+  const std::size_t per_cell = nodes_per_cell(mesh.type);
   const std::string name = xml_text(file);
   std::string s =
       "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf Version=\"3.0\">\n<Domain>\n"

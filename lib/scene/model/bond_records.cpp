@@ -13,8 +13,10 @@ void tell_bonds(const Statics& statics, StepRecord& record) {
     const RigidContact& law = statics.contacts()[k];
     ContactRecord& contact = record.contacts.at(law.name);
     contact.adhesive = bonds.forces(k);
-    for (const Bond& bond : state.bonds[k])
-      contact.beta.push_back(bond.made ? bond.beta : -1), contact.bonded_at.push_back(bond.at);
+    for (const Bond& bond : state.bonds[k]) {
+      contact.beta.push_back(bond.made ? bond.beta : -1);
+      contact.bonded_at.push_back(bond.at);
+    }
     const Vec3 sum = bonds.sum(k);
     record.force_ind -= sum;
     for (int j = 0; j < 3 && statics.contacts().size() > 1; ++j)

@@ -141,7 +141,8 @@ FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<co
   const MeasuredDirections points = read_directions(given);
   std::vector<Vec3> directions;
   for (int e : cells) {
-    const Vec3 x = cell_centre(mesh, e), a = direction_at(points, x, given.method, given.power);
+    const Vec3 x = cell_centre(mesh, e);
+    const Vec3 a = direction_at(points, x, given.method, given.power);
     if (a.isZero(0))
       throw Failure(Exit::config,
                     Error{where(key + ".points"), key + ".points",
@@ -161,7 +162,8 @@ FibreJump largest_jump(const Mesh& mesh, const Directions& directions) {
       const std::array<int, 4> nodes = facet_key(mesh, {e, f});
       const auto [entry, is_new] = open.try_emplace(nodes, e);
       if (is_new) continue;
-      const auto here = directions.of(e), there = directions.of(entry->second);
+      const auto here = directions.of(e);
+      const auto there = directions.of(entry->second);
       for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
         const double angle =
             std::atan2(here[k].cross(there[k]).norm(), std::abs(here[k].dot(there[k]))) / degree;

@@ -26,8 +26,9 @@ bool agrees(const HangingNode& h, int k, const Prescribed& own, const ByDof& by_
     if (its.value != own.value || !same_factor(its.factor, own.factor) ||
         !(its.turn->angle == own.turn->angle))
       return false;
-    along += 0.25 * its.turn->along, across += 0.25 * its.turn->across,
-        size = std::max(size, its.turn->radius());
+    along += 0.25 * its.turn->along;
+    across += 0.25 * its.turn->across;
+    size = std::max(size, its.turn->radius());
   }
   return !own.turn || std::hypot(along - own.turn->along, across - own.turn->across) <= 1e-9 * size;
 }

@@ -16,7 +16,9 @@ namespace langer {
 struct Displacement {
   std::optional<HistoryConfig> x, y, z;
   const std::optional<HistoryConfig>& along(int axis) const {
-    return axis == 0 ? x : axis == 1 ? y : z;
+    if (axis == 0) return x;
+    if (axis == 1) return y;
+    return z;
   }
   static void fields(auto& v) {
     constexpr const char* says =
@@ -30,7 +32,9 @@ struct Displacement {
 struct DeadForce {
   std::optional<HistoryConfig> x, y, z;
   const std::optional<HistoryConfig>& along(int axis) const {
-    return axis == 0 ? x : axis == 1 ? y : z;
+    if (axis == 0) return x;
+    if (axis == 1) return y;
+    return z;
   }
   static void fields(auto& v) {
     constexpr const char* says =
@@ -44,7 +48,9 @@ struct DeadForce {
 struct DeadTraction {
   std::optional<HistoryConfig> x, y, z;
   const std::optional<HistoryConfig>& along(int axis) const {
-    return axis == 0 ? x : axis == 1 ? y : z;
+    if (axis == 0) return x;
+    if (axis == 1) return y;
+    return z;
   }
   static void fields(auto& v) {
     constexpr const char* says =
@@ -96,13 +102,16 @@ struct LoadConfig {
   bool on_surface() const { return !displacement && !rotation; }
   // components along an axis; none where there is none
   std::optional<HistoryConfig> imposed(int axis) const {
-    return displacement ? displacement->along(axis) : std::nullopt;
+    if (displacement) return displacement->along(axis);
+    return std::nullopt;
   }
   bool tells(int axis) const {
     return rotation || imposed(axis);
   }  // where the set's nodes go along it
   std::optional<HistoryConfig> dead(int axis) const {
-    return force ? force->along(axis) : traction ? traction->along(axis) : std::nullopt;
+    if (force) return force->along(axis);
+    if (traction) return traction->along(axis);
+    return std::nullopt;
   }
   std::map<std::string, HistoryConfig> histories_by_key() const {
     std::map<std::string, HistoryConfig> all;

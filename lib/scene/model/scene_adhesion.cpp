@@ -21,7 +21,8 @@ std::vector<Facet> facets_under(const Mesh& mesh, const std::vector<int>& candid
   std::vector<Facet> facets = boundary(mesh);
   std::erase_if(facets, [&](const Facet& facet) {
     const std::vector<int> nodes = facet_nodes(mesh, facet);
-    const std::vector<int> front = mesh.section ? in_front(mesh, nodes) : nodes;
+    std::vector<int> front = nodes;
+    if (mesh.section) front = in_front(mesh, nodes);
     return front.empty() || (mesh.section && front.size() == nodes.size()) ||
            !std::all_of(front.begin(), front.end(),
                         [&](int node) { return may[static_cast<std::size_t>(node)] != 0; });

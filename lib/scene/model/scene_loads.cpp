@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/text.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/section.hpp"
 
@@ -17,7 +18,7 @@ using Find = std::function<Place(const std::string&)>;
 std::string sets_with_facets(const Mesh& mesh) {
   std::string list;
   for (const auto& [name, facets] : mesh.facet_sets)
-    if (!surface_of(mesh, name).empty()) list += (list.empty() ? "" : ", ") + name;
+    if (!surface_of(mesh, name).empty()) append(list, ", ", name);
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
@@ -16,7 +17,13 @@ namespace {
 std::string name_of(const std::string& key) {
   std::string name;
   for (char c : key)
-    if (c != ']') name += c == '.' || c == '[' ? '_' : c;
+    if (c != ']') {
+      if (c == '.' || c == '[') {
+        name += '_';
+      } else {
+        name += c;
+      }
+    }
   return name;
 }
 
@@ -47,9 +54,10 @@ bool has_field(const SolveConfig& config, const std::string& body) {
 
 int family_of(const std::string& key) {
   const auto rest = behind(key, "fibres[");
-  return rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.')
-             ? std::stoi(*rest)
-             : -1;
+  if (rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.')) {
+    return std::stoi(*rest);
+  }
+  return -1;
 }
 
 double& number(Material& material, const std::string& key) {
@@ -63,7 +71,12 @@ Directions turned(const Directions& directions, const Mesh& mesh, const std::vec
   Directions out(directions.from_field());
   for (int e = 0; e < mesh.n_cells(); ++e) {
     std::vector<Vec3> a{directions.of(e).begin(), directions.of(e).end()};
-    const int body = mesh.body.empty() ? 0 : mesh.body[static_cast<std::size_t>(e)];
+    int body = 0;
+    if (mesh.body.empty()) {
+      body = 0;
+    } else {
+      body = mesh.body[static_cast<std::size_t>(e)];
+    }
     if (std::find(bodies.begin(), bodies.end(), body) != bodies.end() &&
         static_cast<std::size_t>(family) < a.size()) {
       const Vec3 axis = mesh.frames.empty() ? Vec3(Vec3::UnitY())
@@ -103,7 +116,8 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   const auto refuse = [&](std::string found, std::string expected, std::string hint = "") {
     Error error = refused;
     if (!found.empty()) error.found += ", " + found;
-    error.expected = std::move(expected), error.hint = std::move(hint);
+    error.expected = std::move(expected);
+    error.hint = std::move(hint);
     throw Failure(Exit::config, std::move(error));
   };
   for (const SceneParameter& other : list_)
@@ -153,7 +167,8 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
       continue;
     const std::vector<int> body{static_cast<int>(b)};
     const std::string beginning = "materials." + mesh.bodies[b] + ".";
-    const std::string own_key = key.starts_with(beginning) ? key.substr(beginning.size()) : "";
+    std::string own_key;
+    if (key.starts_with(beginning)) own_key = key.substr(beginning.size());
     const bool angle =
         family_of(own_key.starts_with("material.") ? own_key.substr(9) : own_key) >= 0;
     if (!own->second.material && !angle && !own_key.empty())
@@ -162,8 +177,7 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (look_in(beginning, body, body)) return;
   }
   const std::string near = nearest(key, known);
-  refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")),
-         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+  refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")), did_you_mean(near));
 }
 
 bool SceneParameters::turns_fibres() const {
@@ -175,7 +189,8 @@ double SceneParameters::step(std::size_t i) const {
   if (of_[i].linear) return of_[i].modulus;
   // exponents and shares that are almost 0 still act as much as one of 0.1 does
   const double size = std::max(std::abs(list_[i].value), list_[i].unit == unit::none ? 0.1 : 0);
-  return size > 0 ? 1e-5 * size : 1e-5;
+  if (size > 0) return 1e-5 * size;
+  return 1e-5;
 }
 
 SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& mesh, std::size_t i,
@@ -201,7 +216,8 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
                        of_[i].family >= 0 ? 137 * share
                        : value == 0       ? share
                                           : share * value);
-    other.materials = std::move(laws.materials), other.directions = std::move(laws.directions);
+    other.materials = std::move(laws.materials);
+    other.directions = std::move(laws.directions);
   }
   return other;
 }

@@ -78,7 +78,9 @@ class Actions {
       const int node = on[n > 1 ? i * (on.size() - 1) / (n - 1) : 0];
       action.at.push_back(mesh_.X[node] + u_[node]);
     }
-    action.along = along, action.moves = moves, action.says = std::move(says);
+    action.along = along;
+    action.moves = moves;
+    action.says = std::move(says);
     all.push_back(std::move(action));
   }
 

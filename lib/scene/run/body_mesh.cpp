@@ -35,7 +35,10 @@ Mesh described(const SolveConfig& config, const std::function<Place(const std::s
     return make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
   } catch (const Failure& failure) {
     std::vector<Error> errors = failure.errors();
-    for (Error& e : errors) e.where = where("mesh." + e.key), e.key = "mesh." + e.key;
+    for (Error& e : errors) {
+      e.where = where("mesh." + e.key);
+      e.key = "mesh." + e.key;
+    }
     throw Failure(failure.code(), errors);
   }
 }

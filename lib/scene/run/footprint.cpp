@@ -30,7 +30,8 @@ bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, 
             const Top& top) {
   const int other = 1 - k;
   const double slack = (top.high[other] - top.low[other]) / samples;
-  const double low = near.low[other] - slack, high = near.high[other] + slack;
+  const double low = near.low[other] - slack;
+  const double high = near.high[other] + slack;
   for (int i = 0; i <= 4 * samples; ++i) {
     const double across =
         std::clamp(low + (high - low) * i / (4 * samples), top.low[other], top.high[other]);
@@ -45,7 +46,8 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
   std::optional<Footprint> found;
   if (const auto inside =
           point_inside(shape)) {  // one that is smaller than the distance of the samples
-    const double x = (*inside + u)[0], z = (*inside + u)[2];
+    const double x = (*inside + u)[0];
+    const double z = (*inside + u)[2];
     if (x >= top.low[0] && x <= top.high[0] && z >= top.low[1] && z <= top.high[1])
       add(found, shape, u, x, top.y, z);
   }
@@ -57,9 +59,10 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
   if (!found) return found;
   for (int k : {0, 1, 0, 1})
     for (double* end : {&found->low[k], &found->high[k]}) {
-      const double step = (top.high[k] - top.low[k]) / samples,
-                   side = end == &found->low[k] ? -1 : 1;
-      double in = *end, out = std::clamp(*end + side * step, top.low[k], top.high[k]);
+      const double step = (top.high[k] - top.low[k]) / samples;
+      const double side = end == &found->low[k] ? -1 : 1;
+      double in = *end;
+      double out = std::clamp(*end + side * step, top.low[k], top.high[k]);
       if (enters(shape, u, *found, k, out, top)) in = out;
       while (std::abs(out - in) > 1e-6 * step) {
         const double between = 0.5 * (in + out);
@@ -72,9 +75,10 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
 
 void add(std::optional<Footprint>& all, const Footprint& print) {
   if (!all) all = print;
-  for (std::size_t k : {0u, 1u})
-    all->low[k] = std::min(all->low[k], print.low[k]),
+  for (std::size_t k : {0u, 1u}) {
+    all->low[k] = std::min(all->low[k], print.low[k]);
     all->high[k] = std::max(all->high[k], print.high[k]);
+  }
   all->deepest = std::max(all->deepest, print.deepest);
 }
 

@@ -27,8 +27,12 @@ double beside_holes(const SolveConfig& config) {
   if (plate == config.contacts.end()) return 0;
   const double radius = std::get<Aperture>(plate->second.rigid).radius;
   const auto size = box(config.mesh->geometry).size;
-  const double top =
-      is_section(config.mesh->geometry) ? std::numbers::pi * size[0] * size[0] : size[0] * size[2];
+  double top = 0;
+  if (is_section(config.mesh->geometry)) {
+    top = std::numbers::pi * size[0] * size[0];
+  } else {
+    top = size[0] * size[2];
+  }
   return std::min(0.5, std::numbers::pi * radius * cell_length(config.mesh->geometry) /
                            std::max(top - std::numbers::pi * radius * radius, 1e-300));
 }
@@ -52,8 +56,13 @@ double beside_rims(const SolveConfig& config, bool clamped) {
   for (const LoadConfig& load : config.loads) {
     const auto set = config.mesh->sets.find(load.on);
     if (!load.pressure || set == config.mesh->sets.end()) continue;
-    if (const auto* round = std::get_if<InCylinder>(&set->second.within))
-      least = least > 0 ? std::min(least, round->radius) : round->radius;
+    if (const auto* round = std::get_if<InCylinder>(&set->second.within)) {
+      if (least > 0) {
+        least = std::min(least, round->radius);
+      } else {
+        least = round->radius;
+      }
+    }
   }
   if (least == 0 || !config.contacts.empty() || !clamped) return 0;
   return std::min(0.5, 0.08 * cell_length(config.mesh->geometry) / least);

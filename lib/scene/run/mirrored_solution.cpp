@@ -24,7 +24,10 @@ struct NamedTurn {
 
 Mat3 turn_of(double xx, double xz, double zx, double zz) {
   Mat3 turn = Mat3::Identity();
-  turn(0, 0) = xx, turn(0, 2) = xz, turn(2, 0) = zx, turn(2, 2) = zz;
+  turn(0, 0) = xx;
+  turn(0, 2) = xz;
+  turn(2, 0) = zx;
+  turn(2, 2) = zz;
   return turn;
 }
 
@@ -54,7 +57,8 @@ bool knows_how_to_turn(const StepRecord& step) {
 bool first_family_stays(const MeshImage& g, const Mesh& mesh, const Scene& scene,
                         const Scene& image) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const auto a = scene.directions.of(e), b = image.directions.of(g.cell[e]);
+    const auto a = scene.directions.of(e);
+    const auto b = image.directions.of(g.cell[e]);
     if (a.empty() ||
         !has_direction(scene.materials[mesh.body.empty() ? 0 : mesh.body[e]].fibres[0]))
       continue;
@@ -102,8 +106,13 @@ std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& 
     if (own && first_family_stays(*g, mesh, scene, image))
       return MirrorOperation{op.name, std::move(*g)};
     // that the fibres differ is what the other operations are for
-    if (why_not.empty() || !found.broken.starts_with("the fibres"))
-      why_not = found.broken.empty() ? "indenters or families change places" : found.broken;
+    if (why_not.empty() || !found.broken.starts_with("the fibres")) {
+      if (found.broken.empty()) {
+        why_not = "indenters or families change places";
+      } else {
+        why_not = found.broken;
+      }
+    }
   }
   if (why_not.empty()) why_not = "the mesh";
   return std::nullopt;
@@ -114,7 +123,8 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
   StepRecord out = step;
   for (std::size_t i = 0; i < step.u.size(); ++i) {
     const auto to = static_cast<std::size_t>(g.node[i]);
-    out.u[to] = g.turn * step.u[i], out.reaction[to] = g.turn * step.reaction[i];
+    out.u[to] = g.turn * step.u[i];
+    out.reaction[to] = g.turn * step.reaction[i];
   }
   for (auto& [name, values] : out.cell_fields) {
     const std::vector<double>& from = step.cell_fields.at(name);
@@ -130,7 +140,8 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
         *to = *of;
     }
   }
-  out.u_ind = g.turn * step.u_ind, out.force_ind = g.turn * step.force_ind;
+  out.u_ind = g.turn * step.u_ind;
+  out.force_ind = g.turn * step.force_ind;
   const auto turn = [&](const std::string& name, const auto& turned) {
     const std::array<std::string, 3> parts{name + "_x", name + "_y", name + "_z"};
     if (!std::all_of(parts.begin(), parts.end(),
@@ -152,9 +163,12 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
     ContactRecord& to = out.contacts.at(contact.name);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const std::size_t j = candidate.at(g.node[static_cast<std::size_t>(contact.nodes[i])]);
-      to.r[j] = g.turn * from.r[i], to.status[j] = from.status[i], to.gap[j] = from.gap[i];
+      to.r[j] = g.turn * from.r[i];
+      to.status[j] = from.status[i];
+      to.gap[j] = from.gap[i];
       if (from.beta.empty()) continue;
-      to.beta[j] = from.beta[i], to.bonded_at[j] = g.turn * from.bonded_at[i],
+      to.beta[j] = from.beta[i];
+      to.bonded_at[j] = g.turn * from.bonded_at[i];
       to.adhesive[j] = g.turn * from.adhesive[i];
     }
   }

@@ -52,7 +52,10 @@ struct StressFields {
 
 void BranchRows::go_to(int row) {
   if (!body_.viscous()) return;
-  if (!path_ || row < row_) path_.emplace(body_), row_ = 0;
+  if (!path_ || row < row_) {
+    path_.emplace(body_);
+    row_ = 0;
+  }
   for (; row_ < row; ++row_) {
     const StepRecord next = solution_.step(row_);
     path_->add(body_, next.scalars.at("time"), next.u);
@@ -73,12 +76,19 @@ Formulation formulation_of(const SolutionHeader& header, const std::string& path
 
 StepState state_of(const StepRecord& record) {
   StepState state;
-  state.t = record.t, state.increment = record.increment, state.residual = record.residual;
+  state.t = record.t;
+  state.increment = record.increment;
+  state.residual = record.residual;
   state.iterations = record.iterations;
-  state.u = record.u, state.reaction = record.reaction;
-  state.u_ind = record.u_ind, state.force_ind = record.force_ind;
+  state.u = record.u;
+  state.reaction = record.reaction;
+  state.u_ind = record.u_ind;
+  state.force_ind = record.force_ind;
   for (const auto& [name, contact] : record.contacts)
-    for (int status : contact.status) state.stick += status == 1, state.slip += status == 2;
+    for (int status : contact.status) {
+      state.stick += status == 1;
+      state.slip += status == 2;
+    }
   state.histories = record.scalars;
   return state;
 }
@@ -87,11 +97,13 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
                                const StepRecord& record, int row, const ContactStates& contacts,
                                StressAt at) {
   const Mesh& mesh = body.mesh();
-  const std::size_t n = mesh.X.size(), n_cells = static_cast<std::size_t>(mesh.n_cells());
+  const std::size_t n = mesh.X.size();
+  const std::size_t n_cells = static_cast<std::size_t>(mesh.n_cells());
   const GaussValues gauss = gauss_values(body, record.u);
   SnapshotFields out;
 
-  Field u = field("u", "mm", 3, n), reaction = field("reaction", "N", 3, n);
+  Field u = field("u", "mm", 3, n);
+  Field reaction = field("reaction", "N", 3, n);
   StressFields at_nodes(n, body.n_families());
   for (std::size_t i = 0; i < n; ++i) {
     put(u, i, record.u[i]);
@@ -231,7 +243,8 @@ Loads loads_of(const SolutionHeader& header) {
     std::vector<SurfaceLoad> loads = surface_loads(
         solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
     if (loads.empty() || !errors.empty()) return {};
-    const std::size_t n = section ? static_cast<std::size_t>(header.mesh.n_cells()) : 0;
+    std::size_t n = 0;
+    if (section) n = static_cast<std::size_t>(header.mesh.n_cells());
     return {header.mesh, std::move(loads),
             std::vector<double>(n, section ? cell_share(*section) : 1)};
   } catch (const Failure&) {

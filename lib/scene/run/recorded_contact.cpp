@@ -63,8 +63,8 @@ void add_record(std::vector<Field>& points, std::size_t n, const std::string& na
   }
   for (Field* f : {&status, &force, &gap}) points.push_back(std::move(*f));
   if (contact.beta.empty()) return;
-  Field beta = field("adhesion_" + name, "-", 1, n, -1),
-        bonds = field("adhesive_force_" + name, "N", 3, n);
+  Field beta = field("adhesion_" + name, "-", 1, n, -1);
+  Field bonds = field("adhesive_force_" + name, "N", 3, n);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
     put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);

@@ -63,7 +63,10 @@ class Run {
   // Before that, of a viscous body: every step so far, in order. Its branches follow from them to
   // the last digit.
   void replay(const StepRecord& step);
-  const Ranks* shared_by() const { return body.division() ? body.division()->ranks : nullptr; }
+  const Ranks* shared_by() const {
+    if (body.division()) return body.division()->ranks;
+    return nullptr;
+  }
   // From where it stands to t = 1; of several ranks rank 0 alone has a listener and the last
   // record. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
   RunEnd follow(const RunListener& listener = {});

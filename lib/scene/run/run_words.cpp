@@ -9,8 +9,8 @@ namespace langer {
 double say_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
-  const FibreJump jump =
-      run.scene.families() > 0 ? largest_jump(run.mesh, run.scene.directions) : FibreJump{};
+  FibreJump jump = FibreJump{};
+  if (run.scene.families() > 0) jump = largest_jump(run.mesh, run.scene.directions);
   if (jump.degrees > 1e-3)
     voice.say(
         "fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",

@@ -69,7 +69,8 @@ bool share(const Ranks& ranks, std::optional<Resumed>& resumed, const BodyState&
     ranks.from_first(&x, sizeof x);
   };
   for (BodyState* state : {&resumed->now, &resumed->before}) {
-    tell(state->t), tell(state->travel);
+    tell(state->t);
+    tell(state->travel);
     ranks.from_first(state->u.data(), static_cast<std::size_t>(state->u.size()) * sizeof(double));
     for (std::vector<Vec3>& reactions : state->r)
       ranks.from_first(reactions.data(), reactions.size() * sizeof(Vec3));

@@ -61,8 +61,12 @@ void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
   for (int e = 0; e < n; ++e) {
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
-    const std::vector<Vec6> branches =
-        body.viscous() ? body.viscous_points()->stresses(e) : std::vector<Vec6>{};
+    std::vector<Vec6> branches;
+    if (body.viscous()) {
+      branches = body.viscous_points()->stresses(e);
+    } else {
+      branches = std::vector<Vec6>{};
+    }
     const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
                                      body.element_displacements(u, e), branches);
     const double w = 1.0 / static_cast<double>(states.size());
@@ -70,8 +74,15 @@ void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
       sigma += w * g.sigma;
       J[e] += w * g.J;
     }
-    pressure[e] = mean_stress(sigma), mises[e] = von_mises(sigma);
-    if (fibres) record.cell_fields["I4_bar"][e] = a.empty() ? 1 : mean_I4_bar(states, a[0]);
+    pressure[e] = mean_stress(sigma);
+    mises[e] = von_mises(sigma);
+    if (fibres) {
+      if (a.empty()) {
+        record.cell_fields["I4_bar"][e] = 1;
+      } else {
+        record.cell_fields["I4_bar"][e] = mean_I4_bar(states, a[0]);
+      }
+    }
   }
 }
 
@@ -93,8 +104,14 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
                        const SolveReport& report) {
   const BodyState& state = statics.accepted();
   StepRecord record;
-  record.t = state.t, record.increment = taken, record.iterations = report.iterations;
-  record.residual = report.reference > 0 ? report.residual / report.reference : report.residual;
+  record.t = state.t;
+  record.increment = taken;
+  record.iterations = report.iterations;
+  if (report.reference > 0) {
+    record.residual = report.residual / report.reference;
+  } else {
+    record.residual = report.residual;
+  }
   const VecX reactions = statics.reactions();
   for (int i = 0; i < body.mesh().n_nodes(); ++i) {
     record.u.push_back(state.u.segment<3>(3 * i));
@@ -113,7 +130,8 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactDefect& d = defects[k];
     ContactRecord& contact = record.contacts[contacts[k].name];
-    contact.r = state.r[k], contact.gap = d.gap;
+    contact.r = state.r[k];
+    contact.gap = d.gap;
     for (ContactStatus status : d.status) contact.status.push_back(static_cast<int>(status));
     for (const auto& [name, value] : {std::pair{"penetration", d.penetration},
                                       {"cone", d.cone},
