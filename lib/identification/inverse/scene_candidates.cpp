@@ -130,7 +130,7 @@ class SceneOf {
     };
     for (const SceneQuantity quantity : choice_.measured) {
       Observation one;
-      if (quantity == SceneUnitKind::force) {
+      if (quantity == SceneQuantity::force) {
         if (run.config().contacts.empty())
           refuse_scene(where_, at_ + "measured", "force, of a scene without indenters",
                        "a reaction");

@@ -147,7 +147,7 @@ std::vector<Complaint> CandidateChoice::complaints() const {
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const bool moves = measured[i] >= SceneQuantity::u_x;
     const std::string word = names(measured[i])[static_cast<std::size_t>(measured[i])];
-    if (measured[i] != SceneUnitKind::force && on.empty() && !(moves && !places.empty()))
+    if (measured[i] != SceneQuantity::force && on.empty() && !(moves && !places.empty()))
       all.push_back({moves ? "places" : "on", "missing beside " + word,
                      moves ? "places on the top, or on: a set" : "the set that is held or moved",
                      ""});

@@ -43,7 +43,7 @@ struct CandidateChoice {
   InputPath solve = {};
   std::vector<CandidateValues> vary = {};
   bool together = false;
-  std::vector<SceneQuantity> measured = {SceneUnitKind::force};
+  std::vector<SceneQuantity> measured = {SceneQuantity::force};
   std::string on = "";
   std::vector<std::array<double, 2>> places = {};
   int points = 20;
