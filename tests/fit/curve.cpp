@@ -80,8 +80,8 @@ TEST_CASE("columns that are missing, doubled or without unit are refused") {
       "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
   starts(refusal("time,force\n0,0\n"),
          "c.csv:1:1: columns: found time, force; expected one column of strain");
-  starts(refusal("strain,cauchy_stress_psi\n0,0\n"),
-         "c.csv:1:1: columns: found strain, cauchy_stress_psi");
+  starts(refusal("strain,cauchy_stress_torr\n0,0\n"),
+         "c.csv:1:1: columns: found strain, cauchy_stress_torr");
   starts(refusal("strain,stretch,cauchy_stress_MPa\n0,1,0\n"),
          "c.csv:1:8: columns: a second column of deformation: \"stretch\"");
   starts(refusal("strain,cauchy_stress_MPa\n0,0\n"),
