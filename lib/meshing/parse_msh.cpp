@@ -116,6 +116,9 @@ class MshParser {
                  "gmsh writes it: Mesh.MshFileVersion = 4.1");
     if (real_bytes != static_cast<std::int64_t>(real_size))
       in_.refuse(fmt::format("found numbers of {} bytes", real_bytes), "8 bytes");
+    if (kind == 1 && version == 4)
+      in_.refuse("binary data in format 4.0", "a text, or format 2.2 or 4.1",
+                 "gmsh itself reads 4.0 as text only");
     in_.finish_line();
     version_ = version;
     if (kind == 1) {

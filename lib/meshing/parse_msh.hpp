@@ -1,5 +1,5 @@
-// Reads a mesh of Gmsh: MSH 4.1, 4.0, 2.x and 1, as text, and 4.1, 4.0 and 2.x as binary data
-// (little endian, numbers of eight bytes).
+// Reads a mesh of Gmsh: MSH 4.1, 4.0, 2.x and 1, as text, and 4.1 and 2.x as binary data (little
+// endian, numbers of eight bytes).
 //
 // It keeps nodes, elements, physical groups and their names. Other sections ($Periodic, $NodeData,
 // $Comments ...) are skipped. It never runs anything: a file that does not begin with a section of

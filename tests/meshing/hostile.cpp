@@ -273,6 +273,8 @@ TEST_CASE("binary data that end early, are of another machine or of other number
             .starts_with("mail.msh:2:7: found numbers of 4 bytes"));
   CHECK(refusal_of_msh("version", "$MeshFormat\n9.7 0 8\n$EndMeshFormat\n")
             .starts_with("mail.msh:2:"));
+  CHECK(refusal_of_msh("version_4", "$MeshFormat\n4 1 8\n" + raw(1) + "\n$EndMeshFormat\n")
+            .starts_with("mail.msh:2:5: binary data in format 4.0"));
   CHECK(refusal_of_msh("no_end", "$MeshFormat\n4.1 0 8\n" + nodes)
             .starts_with("mail.msh:3:1: found \"$Nodes\"; expected $EndMeshFormat"));
   CHECK(refusal_of_msh("open", format + "$Comments\nno end\n")

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -328,53 +327,4 @@ TEST_CASE("an element that format 2 lists once for each of its groups is in each
     CHECK(mesh.facet_sets.at("other").size() == 8);
   }
   CHECK(notes.empty());
-}
-
-TEST_CASE("the binary format 4.0, which gmsh no longer writes, is read as gmsh reads it") {
-  std::string bytes = "$MeshFormat\n4 1 8\n";
-  const auto add = [&](auto value) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes.append(raw, sizeof value);
-  };
-  const auto count = [&](std::size_t n) {
-    add(n);
-  };
-  add(1);
-  bytes +=
-      "\n$EndMeshFormat\n$PhysicalNames\n2\n2 3 \"base\"\n3 8 \"cube\"\n$EndPhysicalNames\n$Entities\n";
-  for (const std::size_t n : {0, 0, 1, 1}) count(n);
-  for (const int dim : {2, 3}) {
-    add(dim == 2 ? 5 : 6);
-    for (int i = 0; i < 6; ++i) add(0.5 * i);
-    count(1);
-    add(dim == 2 ? 3 : 8);
-    count(0);
-  }
-  bytes += "\n$EndEntities\n$Nodes\n";
-  count(1);
-  count(8);
-  for (const int value : {6, 3, 0}) add(value);
-  count(8);
-  for (int n = 0; n < 8; ++n) {
-    add(10 + n);
-    const int right = n % 4 == 1 || n % 4 == 2;
-    for (const int x : {right, n % 4 / 2, n / 4}) add(static_cast<double>(x));
-  }
-  bytes += "\n$EndNodes\n$Elements\n";
-  count(2);
-  count(2);
-  for (const int value : {5, 2, 3}) add(value);
-  count(1);
-  for (const int value : {1, 10, 11, 12, 13}) add(value);
-  for (const int value : {6, 3, 5}) add(value);
-  count(1);
-  for (const int value : {2, 10, 11, 12, 13, 14, 15, 16, 17}) add(value);
-  bytes += "\n$EndElements\n";
-  const std::string path = folder() + "/by_hand_40_1.msh";
-  std::ofstream(path, std::ios::binary) << bytes;
-  const Mesh mesh = check_against_gmsh(path);
-  CHECK(mesh.bodies == std::vector<std::string>{"cube"});
-  CHECK(mesh.facet_sets.at("base").size() == 1);
-  CHECK(quality(mesh).least_jacobian > 0);
 }
