@@ -36,6 +36,8 @@ Mesh described(const SolveConfig& config, const std::function<Place(const std::s
   } catch (const Failure& failure) {
     std::vector<Error> errors = failure.errors();
     for (Error& e : errors) {
+      // What is wrong in the file of a mesh has a place there, which says more than the key.
+      if (!e.where.file.empty()) continue;
       e.where = where("mesh." + e.key);
       e.key = "mesh." + e.key;
     }
