@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "mechanics/contact/rigid.hpp"
 #include "support/near.hpp"
@@ -59,6 +60,64 @@ TEST_CASE("a bond's force is the slope of its potential, and its tangent that of
     }
     CHECK((here.tangent - here.tangent.transpose()).norm() <= 1e-12 * here.tangent.norm());
   }
+}
+
+// The gradient of the normal part of a slip needs the shape's curvature; its Hessian needs the
+// curvature twice, and the derivative of the curvature, which the tangent leaves out.
+TEST_CASE(
+    "on a curved surface the tangent of a bond against sliding has the curvature of the shape") {
+  const double step = 1e-6;
+  const double curvature = 0.5;  // of the ball [1/mm]
+  const Adhesion law{0.02, 50, 30};
+  for (const Vec3& v : {Vec3(0.1, 0.08, 0.02), Vec3(0.02, 0.1, -0.01), Vec3(-0.03, 0.06, 0.05)}) {
+    CAPTURE(v.transpose());
+    // bonds that stay as they are: the tangent is then that of the springs alone
+    const double held = std::numeric_limits<double>::infinity();
+    const Adhesive here = at(law, ball, Vec3::Zero(), v, held, 0.6);
+    Mat3 differences;
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 d = step * Vec3::Unit(j);
+      const Adhesive more = at(law, ball, Vec3::Zero(), v + d, held, 0.6);
+      const Adhesive less = at(law, ball, Vec3::Zero(), v - d, held, 0.6);
+      differences.col(j) = (more.force - less.force) / (2 * step);
+    }
+    const double error = (here.tangent - differences).norm() / here.tangent.norm();
+    const double slip_n = std::abs(v.dot(shape_at(ball, v).normal));
+    // the term left out has the square of the curvature, those kept the curvature itself
+    const double left_out = 2 * slip_n * v.norm() * curvature * curvature;
+    const double kept = slip_n * curvature;
+    CHECK(error <= left_out);
+    CHECK(left_out < 0.5 * kept);
+  }
+}
+
+TEST_CASE("the work of a viscous bond is stored, taken by the surface or by its viscosity") {
+  const Adhesion law{0.02, 50, 0, 0.01};
+  const Indenter flat = Plane{{0, 0, 0}, {0, 1, 0}};
+  const double g_0 = std::sqrt(law.work / law.stiffness);
+  const double seconds = 1;
+  constexpr int n = 20000;
+  const double viscous = law.viscosity / (seconds / n);
+  Bond bond{1, Vec3::Zero(), true};
+  double work = 0;
+  double taken = 0;
+  double stored = 0;
+  double last = 0;
+  for (int i = 1; i <= n; ++i) {
+    const double g = 4 * g_0 * i / n;
+    const Adhesive now = adhesive(law, shape_at(flat, Vec3(0, g, 0)), Vec3(0, g, 0), bond, viscous);
+    const double traction = -now.force[1];
+    work += 0.5 * (traction + last) * 4 * g_0 / n;
+    taken += now.dissipated;
+    stored = now.stored;
+    bond.beta = now.beta;
+    last = traction;
+  }
+  // backward Euler: the error is that of one step in n, times the few sizes that beta changes by
+  CHECK(work == near(stored + taken, 1e-3));
+  // otherwise the check says nothing of viscosity
+  const double by_surface = law.work * (1 - bond.beta);
+  CHECK(taken - by_surface > 0.1 * work);
 }
 
 TEST_CASE("a bond that is pulled off bears sqrt(w C) at most and takes w, in steps of any size") {

@@ -415,3 +415,37 @@ TEST_CASE(
     CHECK(farthest < 0.1 * facets.rounding);
   }
 }
+
+TEST_CASE("an aperture is the image of another only with the same hole, edge, face and axis") {
+  const Isometry mirror{Vec3(-1, 1, 1).asDiagonal(), Vec3::Zero()};
+  const Aperture left{2, 0.5, {-1, 4, 0.5}, {0.2, 1, 0.1}};
+  const Aperture right{2, 0.5, {1, 4, 0.5}, {-0.2, 1, 0.1}};
+  CHECK(becomes(left, right, mirror));
+  CHECK(becomes(right, left, mirror));
+  CHECK_FALSE(becomes(left, left, mirror));
+
+  Aperture other = right;
+  other.radius = 2.1;
+  CHECK_FALSE(becomes(left, other, mirror));
+  other = right;
+  other.edge = 0.6;
+  CHECK_FALSE(becomes(left, other, mirror));
+  other = right;
+  other.face[2] = 0.6;
+  CHECK_FALSE(becomes(left, other, mirror));
+  other = right;
+  other.into = {0.2, 1, 0.1};
+  CHECK_FALSE(becomes(left, other, mirror));
+}
+
+TEST_CASE("on the axis of a hole the wall is as far as its radius, whichever way the axis points") {
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8)}) {
+    const Indenter plate = Aperture{2, 0.5, {0.1, 4, 0.3}, {axis[0], axis[1], axis[2]}};
+    CAPTURE(axis.transpose());
+    // deeper than the rounded edge
+    const ShapePoint p = shape_at(plate, Vec3(0.1, 4, 0.3) + 3 * axis);
+    CHECK(p.gap == near(2));
+    CHECK(p.normal.norm() == near(1));
+    CHECK(std::abs(p.normal.dot(axis)) <= 1e-14);
+  }
+}

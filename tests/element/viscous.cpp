@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "core/tensor/kinematics.hpp"
 #include "mechanics/element/packet_solid.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
@@ -203,4 +204,55 @@ TEST_CASE(
       if (i == 400) CHECK(external - stored == near(work, 1e-3));
     }
   }
+}
+
+TEST_CASE("viscous cells: the time error weighs each branch with the stress of its own terms") {
+  Draw draw;
+  const Material material = materials()[1];  // branches of the matrix, of the fibres and of both
+  const auto a = fibre_directions(material);
+  const std::vector<ViscousBranch> branches = branches_of(material);
+  const ElementGeometry geometry = element_geometry(draw.nodes(8, 1));
+  const ElementNodes far = draw.moves(8, 1);
+
+  const auto stress = [&](const ElementNodes& u, int g, BranchOf of) -> Vec6 {
+    const Mat3 F = deformation_gradient(displacement_gradient(u, geometry.dN_dX[g]));
+    return isochoric(material, right_cauchy_green(F), a, only(of), false).S;
+  };
+  const auto size = [&](const ElementNodes& u) {
+    double sum = 0;
+    for (int g = 0; g < geometry.n_gauss(); ++g) {
+      double here = 0;
+      for (const BranchOf of : {BranchOf::matrix, BranchOf::fibres, BranchOf::all}) {
+        here += stress(u, g, of).norm();
+      }
+      sum += geometry.w[g] * here * here;
+    }
+    return sum;
+  };
+
+  ViscousPoints points({material}, {}, 1, geometry.n_gauss());
+  ElementNodes before = ElementNodes::Zero(8, 3);
+  double largest = 0;
+  // back towards rest: the stresses that errors are compared with stay those of the farthest place
+  for (const double share : {1.0, 0.3, 0.2}) {
+    const double seconds = 0.5 + share;
+    const ElementNodes u = share * far;
+    points.begin(seconds);
+    points.end(0, material, geometry, a, u);
+    double square = 0;
+    for (int g = 0; g < geometry.n_gauss(); ++g) {
+      double here = 0;
+      for (const ViscousBranch& branch : branches) {
+        const Vec6 change = stress(u, g, branch.of) - stress(before, g, branch.of);
+        here += branch_step_error(branch, seconds) * change.norm();
+      }
+      square += geometry.w[g] * here * here;
+    }
+    largest = std::max(largest, size(u));
+    CHECK(points.error() == near(std::sqrt(square / largest), 1e-12));
+    points.accept(0, geometry, before, u);
+    points.accepted();
+    before = u;
+  }
+  CHECK(largest == near(size(far)));
 }

@@ -18,6 +18,7 @@ constexpr int n = 9, kept = 6;
 
 struct Unfinished {
   std::string path, part, steps, whole;
+  std::string steps_file() const { return path + ".steps"; }
 };
 
 Unfinished unfinished(const std::string& name) {
@@ -144,4 +145,32 @@ TEST_CASE(
     journal.append("d");
   }
   CHECK(records(path) == std::vector<std::string>{written[0], "d"});
+}
+
+TEST_CASE("steps that another version of langer left are made anew") {
+  const Unfinished u = unfinished("other_version");
+  const auto kept_of = [&](const std::string& version) {
+    // the same records, the version in the first of them replaced, with right checksums
+    write_bytes(u.path + ".part", u.part);
+    write_bytes(u.steps_file(), u.steps);
+    std::vector<std::string> records;
+    {
+      Journal journal(u.steps_file());
+      while (const std::optional<std::string> record = journal.next()) {
+        records.push_back(*record);
+      }
+      const std::size_t at = records.at(0).find(code_version());
+      REQUIRE(at != std::string::npos);
+      records[0].replace(at, code_version().size(), version);
+      journal.clear();
+      for (const std::string& record : records) {
+        journal.append(record);
+      }
+    }
+    return SolutionWriter(u.path, header(true)).n_steps();
+  };
+  std::string other = code_version();
+  other.back() = other.back() == '1' ? '2' : '1';
+  CHECK(kept_of(code_version()) == kept);
+  CHECK(kept_of(other) == 0);
 }

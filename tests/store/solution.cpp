@@ -149,6 +149,7 @@ TEST_CASE("a run with another config, other inputs or another mesh starts anew")
   CHECK(kept_by([](SolutionHeader& h) {
           h.mesh.section = Section{SectionOf::plane_strain, 1};
         }) == 0);
+  CHECK(kept_by([](SolutionHeader& h) { h.mesh.facet_sets["x_min"] = {{0, 5}}; }) == 0);
 }
 
 TEST_CASE(
