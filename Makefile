@@ -23,7 +23,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -113,9 +113,14 @@ fuzz:
 	@cmake --build build-fuzz --parallel $(JOBS)
 	@tests/fuzz/run build-fuzz $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-# changes of lib/ that a test must notice, one at a time in a copy of the tree; an hour or two, the table in build-mutants/mutants.md.
-# ONLY='contact.*': some of them; KEEP=1 goes on with what an earlier run left; CHECK=1 asks only whether they fit the sources
-mutants: deps
+# mutation tests. One operator, number or statement of the mechanics is changed at a time, by an environment variable in one build of a
+# copy of the tree, build-mutants/tree; the table is build-mutants/operators.md. LIMIT=500: so many of all; FILES='mechanics/contact/*.cpp':
+# of these sources; ONLY='*adhesion.cpp:*': at these places
+mutants: configure
+	@tests/mutants/operators.py --jobs $(JOBS) $(if $(FILES),--files '$(FILES)') $(if $(ONLY),--only '$(ONLY)') $(if $(LIMIT),--limit $(LIMIT))
+# the changes of tests/mutants/list.txt, each with what it means; each is compiled. KEEP=1 continues what an earlier run left; CHECK=1 asks
+# only whether they fit the sources
+mutants-listed: deps
 	@tests/mutants/run.py --jobs $(JOBS) $(if $(ONLY),--only '$(ONLY)') $(if $(KEEP),--keep) $(if $(CHECK),--check)
 
 # the style of .clang-format; what clang-tidy finds (.clang-tidy); lines that the tests reach
@@ -209,7 +214,8 @@ help:
 	@echo "make soak                     kill -9 at random times, KILLS=200; pages of unfinished files zero"
 	@echo "make relations                random scenes against their turned, rescaled, unreduced, ... twins; SCENES=500 SEED=1 FROM=0"
 	@echo "make fuzz                     every reader under libFuzzer, FUZZ_SECONDS=60 each"
-	@echo "make mutants                  mutation tests: errors put into lib/ one at a time, which a test must notice; ONLY='contact.*' KEEP=1 CHECK=1"
+	@echo "make mutants                  mutation tests: one operator of the mechanics changed at a time, which a test must notice; LIMIT=500 FILES= ONLY="
+	@echo "make mutants-listed           the same for the changes of tests/mutants/list.txt; ONLY='contact.*' KEEP=1 CHECK=1"
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/feature_cost.md from it; part of make bench"
 	@echo "make bench-forecasts          what --dry-run forecasts and the time taken, docs/solver_cost.md from it"

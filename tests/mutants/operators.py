@@ -445,18 +445,19 @@ def main():
     p.add_argument("--jobs", type=int, default=os.cpu_count())
     p.add_argument("--programs", default=",".join(PROGRAMS))
     p.add_argument("--seconds", type=float, help="stop after this time of trying changes")
-    p.add_argument("--count", action="store_true", help="only count the changes")
+    p.add_argument("--count", type=int, metavar="LEAST", help="only count the changes; fails below LEAST")
     p.add_argument("--work", type=Path, default=ROOT / "build-mutants")
     args = p.parse_args()
     paths = sorted({f for pattern in args.files.split(",") for f in (ROOT / "lib").glob(pattern)})
     sources = [Source(f) for f in paths]
-    if args.count:
+    if args.count is not None:
         total = 0
         for source in sources:
             n = sum(len(piece[3]) for piece in source.pieces)
             total += n
             print(f"{n:5} {source.path.relative_to(ROOT)}")
-        return print(f"{total:5} in all")
+        print(f"{total:5} in all")
+        return total < args.count
     tree = Tree(args.work.resolve())
     tree.root.mkdir(parents=True, exist_ok=True)
     tree.copy(sources)
@@ -491,4 +492,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
