@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <variant>
 
 #include "mechanics/mesh/facets.hpp"
@@ -94,31 +93,43 @@ std::string broken_supports(const MeshImage& g, const Scene& scene, const Scene&
   return "";
 }
 
-// whether a load goes over into one with the same factor: the facets by their corners
+// The facets of a load by their corners, in order; those of its image under `g`.
+std::vector<std::array<int, 4>> facet_keys(const Mesh& mesh, const SurfaceLoad& load,
+                                           const MeshImage* g) {
+  std::vector<std::array<int, 4>> keys;
+  for (const Facet& facet : load.facets) {
+    std::array<int, 4> key = facet_key(mesh, facet);
+    for (int& node : key)
+      if (g && node >= 0) node = g->node[node];
+    std::sort(key.begin(), key.end());
+    keys.push_back(key);
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+bool is_image(const SurfaceLoad& image, const SurfaceLoad& of, const MeshImage& g) {
+  const double change = (image.traction - g.turn * of.traction).norm();
+  return change <= same * of.traction.norm() && image.pressure == of.pressure &&
+         same_factor(image.factor, of.factor);
+}
+
+// Loads add up: each is the image of one other load, and no load of two.
 std::string broken_loads(const MeshImage& g, const Mesh& mesh, const Scene& scene,
                          const Scene& image) {
-  const auto keys = [&](const SurfaceLoad& load, bool turned) {
-    std::set<std::array<int, 4>> all;
-    for (const Facet& facet : load.facets) {
-      std::array<int, 4> key = facet_key(mesh, facet);
-      if (turned)
-        for (int& node : key) node = node < 0 ? node : g.node[node];
-      std::sort(key.begin(), key.end());
-      all.insert(key);
-    }
-    return all;
-  };
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const SurfaceLoad& load = scene.loads[i];
-    const auto facets = keys(load, true);
-    const bool found =
-        std::any_of(image.loads.begin(), image.loads.end(), [&](const SurfaceLoad& other) {
-          return (other.traction - g.turn * load.traction).norm() <= same * load.traction.norm() &&
-                 other.pressure == load.pressure && same_factor(other.factor, load.factor) &&
-                 keys(other, false) == facets;
-        });
-    if (!found)
+  if (scene.loads.size() != image.loads.size()) return "the number of loads";
+  std::vector<std::vector<std::array<int, 4>>> facets;
+  for (const SurfaceLoad& load : image.loads) facets.push_back(facet_keys(mesh, load, nullptr));
+  std::vector<char> matched(image.loads.size(), 0);
+  for (const SurfaceLoad& load : scene.loads) {
+    const auto images = facet_keys(mesh, load, &g);
+    std::size_t j = 0;
+    while (j < matched.size() &&
+           (matched[j] || !is_image(image.loads[j], load, g) || facets[j] != images))
+      ++j;
+    if (j == matched.size())
       return fmt::format("a force, a traction or a pressure on {} facets", load.facets.size());
+    matched[j] = 1;
   }
   return "";
 }
@@ -164,20 +175,22 @@ std::string difference(const RigidContact& a, const RigidContact& b, const MeshI
   return all ? "" : fmt::format("the nodes that may touch \"{}\"", a.name);
 }
 
+// Each indenter is the image of one other, and none of two: of itself where it can be.
 std::string match_contacts(const MeshImage& g, const Isometry& op, const Scene& scene,
                            const Scene& other, std::vector<int>& image) {
   const std::vector<RigidContact>&all = scene.contacts, &others = other.contacts;
   const int n = static_cast<int>(all.size());
   if (others.size() != all.size()) return "the number of indenters";
   image.assign(all.size(), -1);
+  std::vector<char> matched(all.size(), 0);
   for (int i = 0; i < n; ++i) {
     const std::string own = difference(all[i], others[i], g, op);
-    if (own.empty()) image[i] = i;
+    if (own.empty() && !matched[i]) image[i] = i;
     for (int j = 0; j < n && image[i] < 0; ++j)
-      if (j != i && std::find(image.begin(), image.end(), j) == image.end() &&
-          difference(all[i], others[j], g, op).empty())
-        image[i] = j;
-    if (image[i] < 0) return own;
+      if (j != i && !matched[j] && difference(all[i], others[j], g, op).empty()) image[i] = j;
+    if (image[i] < 0)
+      return own.empty() ? fmt::format("the number of indenters like \"{}\"", all[i].name) : own;
+    matched[image[i]] = 1;
   }
   return "";
 }
