@@ -48,7 +48,7 @@ void on_signal(int signal) {
   if (is_awaited(signal))
     alarm(EndsSoon::seconds);
   else
-    say("\nends after this step; a second signal ends at once\n");
+    say("\nends after this iteration; a second signal ends at once\n");
 }
 
 }  // namespace

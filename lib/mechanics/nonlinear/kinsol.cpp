@@ -26,6 +26,7 @@ Map map(N_Vector v) { return {N_VGetArrayPointer(v), static_cast<Eigen::Index>(N
 struct Round {
   const FreeBalance& balance;
   const KinsolOptions& options;
+  const Problem& problem;
   VecX x;  // all dofs; the free ones follow KINSOL's vector
   VecX f;  // residual on the free rows
   double tolerance = 0;
@@ -52,6 +53,7 @@ int residual(N_Vector u, N_Vector f, void* data) {
   const Traps ours;
   auto& round = *static_cast<Round*>(data);
   if (++round.evaluations > 20 * round.options.iterations) return -1;
+  if (round.problem.stopped && round.problem.stopped()) return -1;
   round.place(u);
   if (!measurable(round.x) || !round.balance.residual(round.x, round.f) || !measurable(round.f))
     return 1;
@@ -168,7 +170,7 @@ void solve_round(Round& round) {
   KINSetFuncNormTol(
       memory, o.strategy == KinsolStrategy::fixed_point ? 1e-14 : 0.3 * round.tolerance / root);
   KINSetScaledStepTol(memory, 1e-15);
-  KINSetMaxNewtonStep(memory, o.largest_move * root);
+  KINSetMaxNewtonStep(memory, o.largest_move.value_or(round.problem.size) * root);
   const int strategies[] = {KIN_NONE, KIN_LINESEARCH, KIN_PICARD, KIN_FP};
   const NoTraps
       in_kinsol;  // Anderson's acceleration divides zero by zero where nothing changes any more
@@ -179,15 +181,17 @@ void solve_round(Round& round) {
 
 SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
                    const KinsolOptions& options) {
+  const double absolute = options.absolute.value_or(problem.least_force);
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);
     return report;
   };
   for (int round = 0;; ++round) {
+    if (is_stopped(problem, report)) return report;
     const Assessment now = problem.assess(x, true);
     ++report.evaluations;
-    compare(now, options.absolute, options.relative, report);
+    compare(now, absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible,
                   now.missing.empty() ? "a force is not finite" : now.missing);
@@ -209,9 +213,10 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
                   then.missing.empty() ? "a force is not finite" : then.missing);
     Round inner{.balance = balance,
                 .options = options,
+                .problem = problem,
                 .x = x,
                 .f = VecX(static_cast<Eigen::Index>(balance.free.size()))};
-    inner.tolerance = std::max({options.absolute, options.relative * then.reference, then.floor});
+    inner.tolerance = std::max({absolute, options.relative * then.reference, then.floor});
     if (then.residual > 0.3 * inner.tolerance) solve_round(inner);
     report.iterations += inner.iterations;
     report.evaluations += inner.evaluations;

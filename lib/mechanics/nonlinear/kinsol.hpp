@@ -27,8 +27,8 @@ struct KinsolOptions {
   int iterations = 100;
   int rounds = 25;
   double relative = 1e-6;
-  double absolute = 1e-12;
-  double largest_move = 1;
+  std::optional<double> absolute;      // [N]; none: Problem::least_force
+  std::optional<double> largest_move;  // [mm]; none: Problem::size
   static void fields(auto& v) {
     v(&KinsolOptions::strategy, "strategy", unit::none, "how KINSOL iterates");
     v(&KinsolOptions::anderson, "anderson", unit::none,
@@ -39,10 +39,12 @@ struct KinsolOptions {
       at_least(1));
     v(&KinsolOptions::relative, "relative", unit::none,
       "residual allowed, relative to the reactions", positive, between(0, 0.1));
-    v(&KinsolOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction",
+    v(&KinsolOptions::absolute, "absolute", unit::N,
+      "residual allowed where there is no reaction; none: 1e-14 of shear modulus times largest extent squared",
       at_least(0));
     v(&KinsolOptions::largest_move, "largest_move", unit::mm,
-      "longest movement of a node in one iteration", positive);
+      "longest movement of a node in one iteration; none: the largest extent of the body",
+      positive);
   }
 };
 

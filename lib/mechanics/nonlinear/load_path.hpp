@@ -18,12 +18,16 @@ struct LoadPathOptions {
   int easy = 6;
   std::optional<double> seconds;
   double time_error = 1e-3;
+  std::optional<double> longest_attempt;  // [s], wall time
 
   double first_increment() const { return steps ? 1.0 / *steps : first; }
   double largest_increment() const { return steps ? 1.0 / *steps : largest; }
   double shortest_with_a_jump() const {
     return largest_increment() / 32;
   }  // of what adheres (solve/release.hpp)
+  // Where the surface passes an edge of an indenter within an increment longer than this, the
+  // increment is halved (solve/edge_slip.hpp). Past a sharp edge every increment has to pass it.
+  double shortest_past_an_edge() const { return largest_increment() / 64; }
   void use_increment(double increment) {
     steps.reset(), first = largest = increment;
   }  // for all of the path
@@ -31,12 +35,12 @@ struct LoadPathOptions {
   static void fields(auto& v) {
     v(&LoadPathOptions::steps, "steps", unit::none,
       "number of equal increments, with seconds of each stage; first and largest follow from it",
-      at_least(1));
+      between(1, 1000000));
     v(&LoadPathOptions::first, "first", unit::none,
       "first increment, as a fraction of the path; with seconds: of the stage, which ends where a history has a kink",
-      positive, between(0, 1));
+      between(1e-9, 1));
     v(&LoadPathOptions::largest, "largest", unit::none, "largest increment, a fraction of the same",
-      positive, between(0, 1));
+      between(1e-6, 1));
     v(&LoadPathOptions::smallest, "smallest", unit::none,
       "increment below which the path is given up; with seconds a fraction of the shortest stage",
       positive, between(0, 1));
@@ -48,6 +52,10 @@ struct LoadPathOptions {
       "of viscous materials: error of the branch stresses that an increment may make, over the greatest stresses, both as means over "
       "the body; not with steps",
       positive, between(0, 1));
+    v(&LoadPathOptions::longest_attempt, "longest_attempt", unit::s,
+      "wall time after which an attempt at an increment counts as failed and the increment is halved; none: no limit. With it "
+      "the increments depend on the speed of the machine",
+      positive);
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
@@ -71,9 +79,10 @@ struct PathReport {
 };
 
 // attempt(t): solve at t from the last accepted state; the callee keeps or restores its state.
-// accepted(t, increment taken, next increment, report): false stops the path (the report is then
-// not complete). stops: values of t that must be hit (kinks of the path); 1 is always one. With
-// seconds they end the stages.
+// After an Outcome::stopped the path ends at once; other failures halve the increment. accepted(t,
+// increment taken, next increment, report): false stops the path (the report is then not complete).
+// stops: values of t that must be hit (kinks of the path); 1 is always one. With seconds they end
+// the stages.
 PathReport load_path(
     const LoadPathOptions& options, double t, std::optional<double> increment,
     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,

@@ -13,15 +13,23 @@ void compare(const Assessment& now, double absolute, double relative, SolveRepor
   report.tolerance = std::max(report.asked, now.floor);
 }
 
-bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move,
-               SolveReport& report) {
+bool is_stopped(const Problem& problem, SolveReport& report) {
+  if (!problem.stopped || !problem.stopped()) return false;
+  report.outcome = Outcome::stopped;
+  report.why = "stopped by a signal";
+  return true;
+}
+
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x,
+               const std::optional<double>& largest_move, SolveReport& report) {
   if (!dx || !dx->allFinite()) {
     report.outcome = Outcome::singular,
     report.why = "the tangent is singular, or the body is unstable in many directions at once";
     return false;
   }
   const double longest = dx->lpNorm<Eigen::Infinity>();
-  double step = longest > largest_move ? largest_move / longest : 1;
+  const double limit = largest_move.value_or(problem.size);
+  double step = longest > limit ? limit / longest : 1;
   int halvings = 0;
   while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
   if (halvings > 8) {
@@ -78,6 +86,7 @@ class OldTangent {
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
   const double strict = options.relative > NewtonOptions{}.relative ? 1 : 1e-3;
+  const double absolute = options.absolute.value_or(problem.least_force);
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
     report.outcome = outcome, report.why = std::move(why);
@@ -87,17 +96,17 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
   OldTangent old(problem.price);
   const bool at_hand = reuses && problem.begins_again;
   for (;;) {
+    if (is_stopped(problem, report)) return report;
     const Assessment now = problem.assess(x, (report.iterations == 0 && !at_hand) || !reuses);
     ++report.evaluations;
-    compare(now, options.absolute, options.relative, report);
+    compare(now, absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
       return stop(Outcome::inadmissible,
                   now.missing.empty() ? "a force is not finite" : now.missing);
     if (report.evaluations == 1) old.begins(now);
     const double wanted =
-        old.used()
-            ? std::max({options.absolute, strict * options.relative * now.reference, now.floor})
-            : report.tolerance;
+        old.used() ? std::max({absolute, strict * options.relative * now.reference, now.floor})
+                   : report.tolerance;
     const bool balanced = now.residual <= wanted;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     std::optional<VecX> dx;

@@ -6,6 +6,8 @@
 //   begins_again              there is one of the state before, which serves for the first correction: who has made it anyway
 //   admissible(x)             cheap test that x can be assessed (det F > 0)
 //   moved(dx, step)           told before x becomes x + step dx
+//   stopped()                 the user asked for an end: asked before every iteration
+//   size, least_force         of the body: they stand for limits that the options do not name
 // There is no test that the residual decreases: near incompressibility the first residuals of a
 // step are huge by nature. After a correction others with the same tangent follow (modified Newton)
 // for as long as they are cheaper: each takes off about the same part of the residual, and a new
@@ -44,14 +46,17 @@ struct Problem {
   bool begins_again = false;
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;
+  std::function<bool()> stopped;  // none: nobody can
+  double size = 1;                // [mm]
+  double least_force = 1e-12;     // [N]
 };
 
 struct NewtonOptions {
   static constexpr const char* key = "newton";
   int iterations = 25;
   double relative = 1e-6;
-  double absolute = 1e-12;
-  double largest_move = 1;
+  std::optional<double> absolute;      // [N]; none: Problem::least_force
+  std::optional<double> largest_move;  // [mm]; none: Problem::size
   bool reuse_tangent = true;
   LinearBy linear = LinearBy::automatic;
   static void fields(auto& v) {
@@ -59,7 +64,8 @@ struct NewtonOptions {
       "largest number of tangents in one step", at_least(1));
     v(&NewtonOptions::relative, "relative", unit::none,
       "residual allowed, relative to the reactions", positive, between(0, 0.1));
-    v(&NewtonOptions::absolute, "absolute", unit::N, "residual allowed where there is no reaction",
+    v(&NewtonOptions::absolute, "absolute", unit::N,
+      "residual allowed where there is no reaction; none: 1e-14 of shear modulus times largest extent squared",
       at_least(0));
     v(&NewtonOptions::reuse_tangent, "reuse_tangent", unit::none,
       "within a step, correct with the last tangent for as long as that is cheaper than a new one; false: a new one each time");
@@ -67,11 +73,12 @@ struct NewtonOptions {
       "direct: by a factor of the tangent; iterative: by multigrid and GMRES, in less memory and time where the body is large, without a look at the "
       "stability of the equilibrium; auto: iterative from 100 000 free dofs on, where the scene and the installation allow it");
     v(&NewtonOptions::largest_move, "largest_move", unit::mm,
-      "longest movement of a node in one iteration", positive);
+      "longest movement of a node in one iteration; none: the largest extent of the body",
+      positive);
   }
 };
 
-enum class Outcome { converged, not_converged, inadmissible, singular };
+enum class Outcome { converged, not_converged, inadmissible, singular, stopped };
 
 struct SolveReport {
   Outcome outcome = Outcome::not_converged;
@@ -90,8 +97,11 @@ void compare(const Assessment& now, double absolute, double relative, SolveRepor
 
 // A correction, shortened where it is too long or would turn elements inside out; false: `report`
 // says why.
-bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x, double largest_move,
-               SolveReport& report);
+bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x,
+               const std::optional<double>& largest_move, SolveReport& report);
+
+// Whether the user asked for an end; `report` then says so.
+bool is_stopped(const Problem& problem, SolveReport& report);
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options);
 

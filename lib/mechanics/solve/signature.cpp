@@ -6,6 +6,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/tensor/dense.hpp"
+#include "mechanics/solve/cell_stability.hpp"
 #include "mechanics/solve/statics.hpp"
 
 namespace langer {
@@ -111,6 +112,8 @@ Signature Statics::signature_with_contact() {
 
 Signature Statics::signature() {
   if (contact_in_tangent()) return signature_with_contact();
+  if (options_.signs_from_cells && contacts_.empty() && every_cell_resists(equilibrium_, now_.u))
+    return {};
   const Dofs& dofs = equilibrium_.dofs();
   using Kind = TangentFactor::Kind;
   need_factor_of_accepted(0.02);

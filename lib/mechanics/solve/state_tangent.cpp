@@ -54,7 +54,7 @@ void StateTangent::take_candidates() {
                      pushed_ ? statics_.controlled_ : -1};
   if (pushed_ && statics_.starts_with_travel())
     state.start_moves = change_of_slips_with_travel(*statics_.controlled(), increment_move(),
-                                                    statics_.options_.gap_tolerance);
+                                                    statics_.gap_tolerance_);
   c_ = condensed(state, factor_, near_);
 }
 
@@ -150,7 +150,7 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const Approach d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
     const Vec3 from = change_of_slips_from(contact, increment_move().of(contact, node), d,
-                                           statics_.options_.gap_tolerance) -
+                                           statics_.gap_tolerance_) -
                       d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;

@@ -7,6 +7,7 @@
 #include "core/base/stopwatch.hpp"
 #include "mechanics/linear/krylov.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "mechanics/solve/edge_slip.hpp"
 
 namespace langer {
 
@@ -27,6 +28,8 @@ Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
       options_(options),
       factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)),
       bonds_(contacts_) {
+  scale_ = scale_of(equilibrium_);
+  gap_tolerance_ = options_.gap_tolerance.value_or(1e-11 * scale_.length);
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_)
     now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
@@ -119,7 +122,7 @@ void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
   const IncrementMove move = increment_move(expected);
   for (int node : contacts_[k].nodes)
     u_start_[k].segment<3>(3 * node) =
-        slips_from(contacts_[k], move.of(contacts_[k], node), options_.gap_tolerance);
+        slips_from(contacts_[k], move.of(contacts_[k], node), gap_tolerance_);
 }
 
 IncrementMove Statics::increment_move(const VecX& expected) const {
@@ -133,8 +136,7 @@ bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled
 
 std::vector<Vec3> Statics::start_moves() const {
   if (!starts_with_travel()) return {};
-  return change_of_slips_with_travel(*controlled(), increment_move(expected_),
-                                     options_.gap_tolerance);
+  return change_of_slips_with_travel(*controlled(), increment_move(expected_), gap_tolerance_);
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }
@@ -142,8 +144,14 @@ double Statics::time_error() { return equilibrium_.end_increment(u_); }
 void Statics::replay(const BodyState& next) {
   equilibrium_.begin_increment((next.t - now_.t) * options_.seconds);
   equilibrium_.end_increment(next.u);
-  t_ = next.t, u_ = next.u, r_ = next.r;
-  accept();
+  equilibrium_.accept_increment(now_.u, next.u);
+  // Bonds come with the state: nothing of them is computed again.
+  before_ = std::move(now_);
+  now_ = next;
+  t_ = now_.t;
+  u_ = now_.u;
+  r_ = now_.r;
+  travel_ = now_.travel;
 }
 
 void Statics::accept() {
@@ -189,7 +197,8 @@ VecX Statics::remaining_prescribed(const VecX& u) const {
 }
 
 bool Statics::prescribed_reached(const VecX& u, const VecX& remaining) const {
-  return remaining.lpNorm<Eigen::Infinity>() <= 1e-14 * (1 + u.lpNorm<Eigen::Infinity>());
+  const double size = 0.1 * scale_.length + u.lpNorm<Eigen::Infinity>();
+  return remaining.lpNorm<Eigen::Infinity>() <= 1e-14 * size;
 }
 
 VecX Statics::on_free_rows(const VecX& all) const {
@@ -226,7 +235,7 @@ bool Statics::contact_law_holds(const VecX& u) const {
                                            indenter_displacement(contacts_[k], t_, travel_),
                                            indenter_displacement(contacts_[k], now_.t, now_.travel),
                                            r_[k], motion(now_.t));
-    if (d.penetration > options_.gap_tolerance || d.complementarity > options_.law_tolerance ||
+    if (d.penetration > gap_tolerance_ || d.complementarity > options_.law_tolerance ||
         d.cone > options_.law_tolerance)
       return false;
   }
@@ -283,7 +292,7 @@ bool Statics::slips_away() const {
       if (!r_[k][i].isZero(0)) return false;
       const int node = contacts_[k].nodes[i];
       const Vec3 x = equilibrium_.mesh().X[node] + now_.u.segment<3>(3 * node);
-      in_the_way = in_the_way || shape_at(contacts_[k].shape, x - c).gap < -options_.gap_tolerance;
+      in_the_way = in_the_way || shape_at(contacts_[k].shape, x - c).gap < -gap_tolerance_;
     }
   }
   return in_the_way;
@@ -319,6 +328,8 @@ void Statics::moved(const VecX& du, double step) {
 
 Problem Statics::problem() {
   Problem p;
+  p.size = scale_.length;
+  p.least_force = scale_.least_force;
   p.assess = [this](const VecX& u, bool with_tangent) {
     return assess(u, with_tangent);
   };
@@ -340,6 +351,16 @@ Problem Statics::problem() {
     moved(du, step);
   };
   return p;
+}
+
+std::optional<std::string> Statics::edge_passed() const {
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const Vec3 begin = indenter_displacement(contacts_[k], now_.t, now_.travel);
+    const Vec3 end = indenter_displacement(contacts_[k], t_, travel_);
+    if (node_past_edge({contacts_[k], equilibrium_.mesh().X, now_.u, u_, begin, end, r_[k]}))
+      return contacts_[k].name;
+  }
+  return std::nullopt;
 }
 
 std::vector<ContactDefect> Statics::defects() const {

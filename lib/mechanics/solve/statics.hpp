@@ -17,6 +17,7 @@
 #include "mechanics/contact/touch.hpp"
 #include "mechanics/nonlinear/free_balance.hpp"
 #include "mechanics/nonlinear/newton.hpp"
+#include "mechanics/solve/body_scale.hpp"
 #include "mechanics/solve/bonds.hpp"
 #include "mechanics/solve/contact_linearisation.hpp"
 #include "mechanics/solve/tangent_factor.hpp"
@@ -44,11 +45,13 @@ struct Signature {
 };
 
 struct StaticsOptions {
-  int threads = 1;               // of the BLAS
-  double gap_tolerance = 1e-10;  // [mm]
-  double law_tolerance = 1e-9;   // complementarity, relative
-  bool extrapolate = true;       // start an increment from the movement of the last one
-  double seconds = 0;            // of the path, for viscous bodies
+  int threads = 1;  // of the BLAS
+  // penetration allowed [mm]; none: 1e-11 of the largest extent of the body
+  std::optional<double> gap_tolerance;
+  double law_tolerance = 1e-9;    // complementarity, relative
+  bool signs_from_cells = false;  // signature(): first from the tangents of the cells
+  bool extrapolate = true;        // start an increment from the movement of the last one
+  double seconds = 0;             // of the path, for viscous bodies
   ContactBy contact_by = ContactBy::by_cost;
   LinearBy linear_by = LinearBy::direct;
 };
@@ -86,6 +89,9 @@ class Statics {
   void restore(const BodyState& accepted, const BodyState* before = nullptr);
 
   const BodyState& accepted() const { return now_; }
+  // An indenter past whose edge a node went in this increment, by name (solve/edge_slip.hpp): the
+  // trial may be an equilibrium that shorter increments do not lead to.
+  std::optional<std::string> edge_passed() const;
   std::vector<ContactDefect> defects()
       const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
@@ -168,9 +174,11 @@ class Statics {
   Cost cost_;
   TangentFactor factor_;
   Bonds bonds_;
-  BondEnergy jump_;         // of the increment
-  BodyState now_, before_;  // accepted states
-  double t_ = 0;            // of the trial
+  BondEnergy jump_;  // of the increment
+  BodyScale scale_;
+  double gap_tolerance_ = 0;  // [mm]
+  BodyState now_, before_;    // accepted states
+  double t_ = 0;              // of the trial
   VecX u_;
   double extrapolated_ = 0;  // of the movement of the last increment, with which this one was begun
   VecX expected_;            // u that it was begun with, where the start of slip follows the travel

@@ -19,7 +19,9 @@ Identity with_steps_hash(Identity identity, const SolveConfig& config) {
   const SolveConfig usual;
   steps.threads = usual.threads, steps.blas_threads = usual.blas_threads,
   steps.solver = usual.solver;
-  steps.path.smallest = usual.path.smallest, steps.on_unstable = usual.on_unstable,
+  steps.path.smallest = usual.path.smallest;
+  steps.path.longest_attempt = usual.path.longest_attempt;
+  steps.on_unstable = usual.on_unstable;
   steps.estimate = usual.estimate;
   steps.truncation = usual.truncation;
   identity.steps_hash = fnv1a(to_yaml(steps, file_name));

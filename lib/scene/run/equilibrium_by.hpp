@@ -15,7 +15,8 @@ inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOption
     return kinsol(problem, statics.free_balance(), statics.trial(), *options);
   const NewtonOptions& options = std::get<NewtonOptions>(solver);
   const SolveReport report = newton(problem, statics.trial(), options);
-  if (report.converged() || !problem.begins_again) return report;
+  if (report.converged() || report.outcome == Outcome::stopped) return report;
+  if (!problem.begins_again) return report;
   Problem anew = problem;  // the tangent of the state before led astray: the increment as it would
                            // be without one
   anew.begins_again = false;

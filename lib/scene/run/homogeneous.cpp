@@ -10,6 +10,7 @@
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/quality.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "mechanics/solve/body_scale.hpp"
 #include "scene/run/run.hpp"
 
 namespace langer {
@@ -241,8 +242,12 @@ SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveRe
   Assessment found;
   found.residual = residual, found.reference = reactions,
   found.floor = 3 * whole_->rounding_floor();  // as of Statics
-  std::visit([&](const auto& asked) { compare(found, asked.absolute, asked.relative, report); },
-             asked_);
+  const double least_force = scale_of(*whole_).least_force;
+  std::visit(
+      [&](const auto& asked) {
+        compare(found, asked.absolute.value_or(least_force), asked.relative, report);
+      },
+      asked_);
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/run/run.hpp"
 
 #include "core/base/interrupt.hpp"
+#include "core/base/stopwatch.hpp"
 #include "mechanics/solve/release.hpp"
 #include "scene/model/torque.hpp"
 #include "scene/run/equilibrium_by.hpp"
@@ -48,10 +49,13 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
 
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
   BodyState earlier = statics.accepted();
-  if (before)
+  if (before) {
     earlier = reduction.reduced(*before);
-  else {
-    earlier.t = 0, earlier.u.setZero();
+  } else {
+    // the body at rest
+    earlier.t = 0;
+    earlier.travel = 0;
+    earlier.u.setZero();
     for (auto& reactions : earlier.r)
       std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
   }
@@ -95,12 +99,25 @@ RunEnd Run::follow(const RunListener& listener) {
   RunEnd end;
   int signal = 0;
   const auto attempt = [&](double t) {
-    if ((signal = signal_of(shared_by())) != 0) return SolveReport{};  // not converged
+    const auto stopped = [&] {
+      signal = signal_of(shared_by());
+      return signal != 0;
+    };
+    if (stopped()) return SolveReport{.outcome = Outcome::stopped, .why = "stopped by a signal"};
     statics.begin(t);
+    const double began = wall_seconds();
+    bool too_slow = false;
+    const auto stopped_or_slow = [&] {
+      double seconds = wall_seconds() - began;
+      if (path.longest_attempt && shared_by()) seconds = shared_by()->largest(seconds);
+      too_slow = path.longest_attempt && seconds > *path.longest_attempt;
+      return stopped() || too_slow;
+    };
     const auto solve = [&] {
-      return equilibrium_by(
-          solver, statics,
-          listener.watched ? listener.watched(statics.problem(), t) : statics.problem());
+      Problem problem = statics.problem();
+      problem.stopped = stopped_or_slow;
+      if (listener.watched) problem = listener.watched(std::move(problem), t);
+      return equilibrium_by(solver, statics, problem);
     };
     const auto jumping = [&](int equilibria) {
       if (listener.jumping) listener.jumping(t, equilibria);
@@ -109,6 +126,19 @@ RunEnd Run::follow(const RunListener& listener) {
         statics.bonds().none()
             ? solve()
             : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
+    if (!report.converged() && too_slow && signal == 0) {
+      report.outcome = Outcome::not_converged;
+      report.why = "the attempt takes longer than path.longest_attempt";
+    }
+    // In a longer increment the surface may pass an edge that it would not pass in shorter ones.
+    const double increment = t - statics.accepted().t;
+    if (report.converged() && increment > path.shortest_past_an_edge()) {
+      if (const std::optional<std::string> indenter = statics.edge_passed()) {
+        report.outcome = Outcome::not_converged;
+        report.why =
+            "the surface passes an edge of the indenter \"" + *indenter + "\" within one increment";
+      }
+    }
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
