@@ -176,8 +176,8 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
       cost.solve, cost.contact, files);
   if (statics.n_indefinite() > 0)
     voice_.say(
-        "{} tangents were not positive definite: without its constraints the body is unstable in some direction "
-        "(limit point, loss of ellipticity, or too few supports)",
+        "{} tangents of iterations, before equilibrium, were not positive definite; this is no statement about "
+        "the states found, which stability: each_step examines",
         statics.n_indefinite());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
@@ -10,6 +11,51 @@
 #include "scene/run/step_record.hpp"
 
 namespace langer {
+
+namespace {
+
+// Cells of mean dilatation resist changes of their whole volume only. Under strong compression a
+// compressible one folds inside, and no equilibrium is found. Plain displacement cells do not, and
+// up to this ratio of the bulk to the shear modulus (a Poisson's ratio of 0.49) they hardly lock.
+constexpr double compressible = 50;
+
+bool compressible_cells_fold(const Assembler& body) {
+  if (body.formulation() != Formulation::mean_dilatation) return false;
+  if (body.mesh().type != CellType::hex8) return false;
+  for (int e = 0; e < body.mesh().n_cells(); ++e) {
+    const Material& material = body.material(e);
+    if (bulk_modulus(material) > compressible * shear_modulus(material)) return false;
+  }
+  return true;
+}
+
+// What helps where no equilibrium is found; continues "kept: 3 steps in x.part (".
+std::string cure_of_failure(const Run& run, const PathReport& path, const std::string& loose) {
+  if (!loose.empty())
+    return "a run of this config continues from there); hold also a node on the indenter's axis "
+           "and, against turning, one beside it, where contact does not: that begins anew";
+  // Where the tangent has a negative direction under forces, no shorter increment passes.
+  if (run.statics.n_unstable() > 0 && !run.body.loads().empty()) {
+    const double reached = std::floor(1e3 * path.t) / 1e3;
+    return fmt::format(
+        "the next run continues from there, but shorter increments do not pass a limit point); "
+        "the last equilibrium is at {:g} of the path: end the loads there (loads in proportion to "
+        "t: {:g} times their values), or impose a displacement and no force",
+        reached, reached);
+  }
+  if (compressible_cells_fold(run.body)) {
+    return "a run of this config continues from there); the material is compressible enough for "
+           "formulation: displacement, whose elements resist folding at every Gauss point and go "
+           "further: that starts again";
+  }
+  if (run.body.loads().follow())
+    return "the next run continues from there); the tangent of a pressure whose rim is free is not "
+           "symmetric, and Newton's method has the symmetric part of it: solver: {kinsol: "
+           "{strategy: picard}} goes further, and begins anew";
+  return "the next run continues from there); try path.smallest or solver.newton.iterations";
+}
+
+}  // namespace
 
 Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
                      Companion companion)
@@ -88,25 +134,6 @@ RunEnd Recording::along_the_path(Progress& progress) {
   return end;
 }
 
-namespace {
-
-// Cells of mean dilatation resist changes of their whole volume only. Under strong compression a
-// compressible one folds inside, and no equilibrium is found. Plain displacement cells do not, and
-// up to this ratio of the bulk to the shear modulus (a Poisson's ratio of 0.49) they hardly lock.
-constexpr double compressible = 50;
-
-bool compressible_cells_fold(const Equilibrium& body) {
-  if (body.formulation() != Formulation::mean_dilatation) return false;
-  if (body.mesh().type != CellType::hex8) return false;
-  for (int e = 0; e < body.mesh().n_cells(); ++e) {
-    const Material& material = body.material(e);
-    if (bulk_modulus(material) > compressible * shear_modulus(material)) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 void Recording::need_the_end(const RunEnd& end, const std::string& loose) const {
   const auto fail = [](Exit code, std::string found, std::string expected, std::string hint) {
     throw Failure(code, Error{{}, "", std::move(found), std::move(expected), std::move(hint)});
@@ -120,31 +147,17 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
          fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()),
                      end.path.t, n_steps()),
          "", fmt::format("kept: {}.part (the next run continues from there)", output_));
-  const char* cure =
-      compressible_cells_fold(run_.body)
-          ? "a run of this config continues from there); the material is compressible enough for formulation: displacement, "
-            "whose cells resist folding at every Gauss point and go further: that begins anew"
-      : run_.body.loads().follow()
-          ? "the next run continues from there); the tangent of a pressure whose rim is free is not symmetric, and Newton's "
-            "method has the symmetric part of it: solver: {kinsol: {strategy: picard}} goes further, and begins anew"
-          : "the next run continues from there); try path.smallest or solver.newton.iterations";
-  if (end.at == RunEnd::At::no_equilibrium)
-    fail(
-        Exit::not_converged,
-        fmt::format("stopped at t = {:.6g} after {} steps: {}{}{}{}; smallest increment reached",
-                    end.path.t, n_steps(), end.path.why,
-                    run_.statics.n_unstable() > 0
-                        ? "; the body itself gives way (tangent not positive definite)"
-                        : "",
-                    watch_.last_said().empty() ? "" : "; at the last state " + watch_.last_said(),
-                    loose.empty() ? "" : "; " + loose),
-        "",
-        fmt::format(
-            "kept: {} steps in {}.part ({}", n_steps(), output_,
-            loose.empty()
-                ? cure
-                : "a run of this config continues from there); hold also a node on the indenter's axis and, against "
-                  "turning, one beside it, where contact does not: that begins anew"));
+  if (end.at != RunEnd::At::no_equilibrium) return;
+  std::string found =
+      fmt::format("stopped at t = {:.6g} after {} steps: {}", end.path.t, n_steps(), end.path.why);
+  if (run_.statics.n_unstable() > 0)
+    found += "; the body itself gives way (tangent not positive definite)";
+  if (!watch_.last_said().empty()) found += "; at the last state " + watch_.last_said();
+  if (!loose.empty()) found += "; " + loose;
+  found += "; smallest increment reached";
+  fail(Exit::not_converged, found, "",
+       fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
+                   cure_of_failure(run_, end.path, loose)));
 }
 
 void Recording::stopped_in_estimate() const {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <tuple>
 
 namespace langer {
@@ -30,7 +31,8 @@ std::string number_hint(const Tree& tree, const Member& m) {
   if (tree.quoted) return "numbers stand without quotes";
   const bool digit = !s.empty() && ((s[0] >= '0' && s[0] <= '9') || s[0] == '-' || s[0] == '.');
   if (digit && has_leading_zero(s)) return "leave out the leading zero";
-  if (digit && s.find(',') != std::string::npos) return "the decimal sign is a point";
+  if (digit && s.find(',') != std::string::npos)
+    return "a decimal comma: the decimal sign is a point, as in 2.5";
   if (digit && s.find(' ') != std::string::npos && std::string(m.unit) != unit::none)
     return fmt::format("a plain number; the unit is always {}", m.unit);
   return m.hint;
@@ -54,6 +56,12 @@ std::string number_words(const Member& m, bool whole) {
   if (high) s += fmt::format("{} {} {}", low ? " and" : "", r.high_included ? "<=" : "<", r.high);
   if (std::string(m.unit) != unit::none) s += fmt::format(" in {}", m.unit);
   return s;
+}
+
+// A multiple of 15 degrees in radians, with three digits or more.
+static bool looks_like_radians(double x) {
+  const double parts = std::abs(x) * 12 / std::numbers::pi, whole = std::round(parts);
+  return whole >= 1 && whole <= 24 && std::abs(parts - whole) < 6e-4 * whole;
 }
 
 // lengths, which must be positive, and positions, both in mm: squares and ratios of what is in here
@@ -87,6 +95,10 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, doubl
   if (!within(x, m.range)) return wrong(m.hint);
   if (std::string_view(m.unit) == unit::mm && !is_length(x, m))
     return wrong("lengths and positions are at most 1e9 mm, lengths at least 1e-9 mm");
+  if (std::string_view(m.unit) == unit::deg && looks_like_radians(x))
+    f.notices.push_back(text(Error{
+        tree.place, path, fmt::format("found {:g}, read as degrees", x), "an angle in degrees",
+        fmt::format("if it is in radians: {:.5g} degrees", x * 180 / std::numbers::pi)}));
   out = x;
 }
 
@@ -165,6 +177,16 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, Input
 
 void say_unknown(const Tree::Entry& entry, const std::string& path,
                  const std::vector<std::string>& known, Findings& f) {
+  // `radius: 2,5` in braces is the key `radius` with 2, and a key `5` without a value
+  const bool digits =
+      !entry.key.empty() &&
+      std::all_of(entry.key.begin(), entry.key.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool empty = entry.value.kind == Tree::Kind::null ||
+                     (entry.value.kind == Tree::Kind::scalar && entry.value.scalar.empty());
+  if (digits && empty)
+    return f.say(entry.value.place, path,
+                 fmt::format("found \",{}\" behind a number: a decimal comma", entry.key),
+                 "a decimal point, as in 2.5");
   const std::string near = nearest(entry.key, known);
   f.say(entry.value.place, path,
         fmt::format("unknown key \"{}\"; known: {}{}", entry.key, list_words(known),

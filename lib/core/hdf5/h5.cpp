@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -311,6 +312,13 @@ File File::open(const std::string& path) {
   if (!std::filesystem::exists(path, none)) refuse("no such file", "");
   if (std::filesystem::is_directory(path, none)) refuse("is a folder, not a file", "");
   if (!std::filesystem::is_regular_file(path, none)) refuse(unreadable_reason(path), "");
+  // What keeps the system from opening it says nothing about its content.
+  const int readable = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (readable < 0 && (errno == EMFILE || errno == ENFILE))
+    refuse("not opened: this process has too many open files",
+           "close some, or raise the limit: ulimit -n 4096");
+  if (readable < 0) refuse(fmt::format("not opened: {}", std::strerror(errno)), "");
+  ::close(readable);
   const Seal seal = seal_of(path);
   if (seal == Seal::broken)
     refuse("damaged: its content does not fit its checksum", "make it again");

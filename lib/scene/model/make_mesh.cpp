@@ -143,6 +143,17 @@ Mesh with_lines(const MeshConfig& config, std::vector<std::string>& notes) {
   return through(config.positions());
 }
 
+// Cells of a file do not follow from numbers of the config.
+void refuse_folded_in_file(const Quality& q) {
+  if (q.least_jacobian > 0) return;
+  refuse("geometry.file.path",
+         fmt::format("cell {} of the file is folded: Jacobian {:.3g} mm^3 at ({:.4g}, {:.4g}, "
+                     "{:.4g})",
+                     q.at_cell, q.least_jacobian, q.at[0], q.at[1], q.at[2]),
+         "a positive Jacobian everywhere",
+         "repair this cell in the program that made the file, for instance by smaller cells there");
+}
+
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
@@ -160,7 +171,10 @@ MadeMesh made(const MeshConfig& config) {
   if (!config.cuts.empty()) mesh = with_cuts(std::move(mesh), config.cuts);
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
-  refuse_folded(result.quality, "geometry");
+  if (std::holds_alternative<FromFile>(config.geometry))
+    refuse_folded_in_file(result.quality);
+  else
+    refuse_folded(result.quality, "geometry");
   name_bodies(mesh, config);
   mesh.frames = frames(mesh, config.frames);
   const auto node_sets = mesh.node_sets;

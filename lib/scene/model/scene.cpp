@@ -335,6 +335,42 @@ void refuse_far_side(const RigidContact& rigid, const std::string& on, const Mes
          "a set whose surface faces the indenter", "look at `on` and at `control.along`"});
 }
 
+// Nodes that supports hold in all directions cannot give way: an indenter whose path leads through
+// them has no equilibrium there.
+void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes, const Mesh& mesh,
+                                  const std::string& key, const Find& where,
+                                  std::vector<Error>& errors) {
+  if (rigid.control || rigid.motion.empty()) return;
+  std::vector<char> held(mesh.X.size(), 0);
+  for (const Prescribed& p : nodes.prescribed)
+    if (p.value == 0 && !p.turn) ++held[static_cast<std::size_t>(p.dof / 3)];
+  double begin = 0;
+  for (std::size_t i = 0; i < rigid.motion.size(); ++i) {
+    const double end = rigid.motion[i].t;
+    const Vec3 way = indenter_displacement(rigid, end) - indenter_displacement(rigid, begin);
+    const double width = std::max(half_width(rigid.shape), 1e-3 * way.norm());
+    const int parts = std::max(1, static_cast<int>(std::ceil(2 * way.norm() / width)));
+    for (int k = 1; k <= parts; ++k) {
+      const double t = begin + (end - begin) * k / parts;
+      const Vec3 c = indenter_displacement(rigid, t);
+      for (std::size_t n = 0; n < mesh.X.size(); ++n) {
+        if (held[n] < 3) continue;
+        const double depth = -shape_at(rigid.shape, mesh.X[n] - c).gap;
+        if (depth <= 0.01 * c.norm()) continue;
+        const std::string at = fmt::format("{}.motion[{}].to", key, i);
+        errors.push_back({where(at), at,
+                          fmt::format("at t = {:.3g} the indenter is {:.3g} mm inside nodes that "
+                                      "supports hold, at ({:.4g}, {:.4g}, {:.4g})",
+                                      t, depth, mesh.X[n][0], mesh.X[n][1], mesh.X[n][2]),
+                          "a path that ends before what is held",
+                          "a shorter way, or look at its place and at its direction"});
+        return;
+      }
+    }
+    begin = end;
+  }
+}
+
 // A hole that no candidate lies beyond has nothing to press on.
 void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key,
                       const Find& where, std::vector<Error>& errors) {
@@ -378,6 +414,7 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
                               "a way that brings it to a node that may move",
                               "look at its place and at how far it goes"});
     refuse_start_inside(rigid, mesh, key + ".rigid", where, nodes.errors);
+    refuse_path_through_supports(rigid, nodes, mesh, key, where, nodes.errors);
     refuse_wide_hole(rigid, mesh, key + ".rigid.aperture", where, nodes.errors);
     refuse_far_side(rigid, contact.on, mesh, key, where, nodes.errors);
     if (contact.adhesion) take_adhesion(rigid, contact, mesh, key, where, nodes.errors);
