@@ -16,6 +16,7 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
   if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
     StaticsOptions options;
     options.threads = config.blas_threads;
+    options.signs_from_cells = true;  // its cells deform alike
     mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);
   }
 }

@@ -90,12 +90,10 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config,
 std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config,
                                   const std::optional<Material>& material, const Run::Where& where,
                                   Run& run, const RunWatch& watch) {
-  if (watch.of_mesh())
-    voice.say(
-        "the stability of each state looked at takes a factorization of the mesh, {} free dofs, more",
-        run.reduction.mesh_of_point()->dofs().n_free());
   const double estimate = estimate_forecast(config, material, where, run);
-  return dry_run(config, run.reduction.scene(), run.body, run.statics, estimate, voice.quiet);
+  const MeshChecks checks = forecast_of_mesh(run, watch.of_mesh(), config.stability);
+  return dry_run(config, run.reduction.scene(), run.body, run.statics, checks, estimate,
+                 voice.quiet);
 }
 
 SolutionWriter::Histories histories_of(const PathErrors& estimate) {

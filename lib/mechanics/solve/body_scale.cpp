@@ -7,7 +7,7 @@
 
 namespace langer {
 
-BodyScale scale_of(const Equilibrium& body) {
+BodyScale scale_of(const Assembler& body) {
   constexpr double negligible = 1e-14;
   BodyScale scale;
   scale.length = bounding_box(body.mesh().X).size().maxCoeff();

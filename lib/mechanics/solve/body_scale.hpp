@@ -5,7 +5,7 @@
 // body: its largest extent, and a force that its stiffness resists without a visible movement.
 #pragma once
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 
 namespace langer {
 
@@ -13,6 +13,6 @@ struct BodyScale {
   double length = 1;       // largest extent [mm]
   double least_force = 0;  // 1e-14 of the largest shear modulus times length^2 [N]
 };
-BodyScale scale_of(const Equilibrium& body);
+BodyScale scale_of(const Assembler& body);
 
 }  // namespace langer

@@ -23,7 +23,7 @@ bool are_alike(const CellState& a, const CellState& b) {
   return (a.shape - b.shape).norm() <= same * size && (a.u - b.u).norm() <= same * size;
 }
 
-CellState state_of_cell(const Equilibrium& body, const VecX& u, int e) {
+CellState state_of_cell(const Assembler& body, const VecX& u, int e) {
   CellState state;
   state.shape = element_nodes(body.mesh(), e);
   state.shape.rowwise() -= state.shape.row(0).eval();
@@ -34,7 +34,7 @@ CellState state_of_cell(const Equilibrium& body, const VecX& u, int e) {
   return state;
 }
 
-bool resists(const Equilibrium& body, const VecX& u, int e) {
+bool resists(const Assembler& body, const VecX& u, int e) {
   // rigid movements leave zeros, which rounding turns to either side
   constexpr double rounding = 1e-11;
   SolidElement cell;
@@ -48,7 +48,7 @@ bool resists(const Equilibrium& body, const VecX& u, int e) {
 
 }  // namespace
 
-bool every_cell_resists(const Equilibrium& body, const VecX& u) {
+bool every_cell_resists(const Assembler& body, const VecX& u) {
   if (body.viscous() || body.loads().follow() || body.division()) return false;
   if (body.formulation() == Formulation::linear_dilatation) return false;
   constexpr std::size_t kinds_kept = 8;  // a graded block has many, next to each other

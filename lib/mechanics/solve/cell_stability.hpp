@@ -8,13 +8,13 @@
 // Cells that deform alike have the same tangent, so a homogeneous body costs a few cells.
 #pragma once
 
-#include "mechanics/assembly/equilibrium.hpp"
+#include "mechanics/assembly/assembler.hpp"
 
 namespace langer {
 
 // Whether no cell has a negative eigenvalue at the displacements u (3 n), of an elastic body
 // without pressures. False also where this is not known: a viscous body, loads that follow the
 // surface, or cells of linear_dilatation.
-bool every_cell_resists(const Equilibrium& body, const VecX& u);
+bool every_cell_resists(const Assembler& body, const VecX& u);
 
 }  // namespace langer

@@ -5,6 +5,8 @@
 
 #include "core/base/memory.hpp"
 #include "core/base/stopwatch.hpp"
+#include "mechanics/element/point_check.hpp"
+#include "mechanics/solve/cell_stability.hpp"
 
 extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*,
                        const double*, const int*, const double*, const int*, const double*, double*,
@@ -129,6 +131,44 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
   };
   out.steps = load_path(path, 0, {}, stops, attempt, accepted).steps;
   out.files = 0.01 + out.steps * (2e-3 + 1.5e-7 * body.mesh().n_nodes());
+  return out;
+}
+
+MeshChecks forecast_of_mesh(Assembler& mesh, const LinearSolver::Size& size, const VecX& u,
+                            int n_steps, int n_examined) {
+  MeshChecks out;
+  mesh.assemble(u, false);  // wakes the memory
+  double start = cpu_seconds();
+  mesh.assemble(u, false);
+  out.assembly = cpu_seconds() - start;
+  // a step is balanced when it is examined and when it is written, and twice more at the beginning
+  out.seconds = (2 * n_steps + 4) * out.assembly;
+  out.seconds += n_steps * (2e-3 + 3e-7 * mesh.mesh().n_nodes());
+  if (n_examined == 0) return out;
+
+  // strong ellipticity in all Gauss points, from some of the cells
+  constexpr int sample = 500;
+  const int cells = std::min(sample, mesh.mesh().n_cells());
+  PointCheck points;
+  start = cpu_seconds();
+  for (int e = 0; e < cells; ++e)
+    check_points(mesh.material(e), mesh.geometry(e), mesh.fibres(e),
+                 mesh.element_displacements(u, e), points);
+  out.points = (cpu_seconds() - start) * mesh.mesh().n_cells() / std::max(cells, 1);
+
+  start = cpu_seconds();
+  const bool needs_factor = !every_cell_resists(mesh, u);
+  out.points += cpu_seconds() - start;
+  if (needs_factor) {
+    Forecast of_factor;
+    of_factor.size = size;
+    with_factor(multiplication_rate(), of_factor);
+    start = cpu_seconds();
+    mesh.assemble(u, true);
+    out.factor = of_factor.factor + cpu_seconds() - start;
+    out.bytes = size.factor_bytes;
+  }
+  out.seconds += n_examined * (out.points + out.factor);
   return out;
 }
 

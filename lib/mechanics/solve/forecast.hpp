@@ -43,6 +43,17 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
                   const std::vector<RigidContact>& contacts, const LoadPathOptions& path,
                   const std::vector<double>& stops, const CorrectionsBy& by);
 
+// What comes on top where one hexahedron stands for a body that deforms alike everywhere: every
+// step is balanced on the mesh, and its stability may be examined there.
+struct MeshChecks {
+  double seconds = 0;                           // of CPU, all steps
+  double bytes = 0;                             // of a factor of the mesh, if there is one
+  double assembly = 0, points = 0, factor = 0;  // CPU seconds of one
+};
+// u: (3 n) a state of the path; n_steps of it, of which n_examined are examined. Assembles `mesh`.
+MeshChecks forecast_of_mesh(Assembler& mesh, const LinearSolver::Size& size, const VecX& u,
+                            int n_steps, int n_examined);
+
 double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
 
 }  // namespace langer

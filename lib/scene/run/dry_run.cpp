@@ -8,8 +8,10 @@
 #include "core/base/error.hpp"
 #include "core/base/memory.hpp"
 #include "core/base/say.hpp"
+#include "core/base/stopwatch.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "scene/run/body_mesh.hpp"
+#include "scene/run/step_record.hpp"
 
 namespace langer {
 
@@ -61,10 +63,38 @@ Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& m
   return forecast_of(config, run.body, run.statics, run.scene.stops);
 }
 
+MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck when) {
+  Assembler* mesh = run.reduction.mesh_of_point();
+  if (!mesh) return {};
+  int steps = 0;
+  std::optional<StepRecord> last;
+  RunListener listener;
+  listener.of_part = [&](StepRecord& record) {
+    ++steps;
+    last = record;
+    return true;
+  };
+  // without a listener of the whole body nothing is put to the mesh but the last state
+  run.follow(listener);
+  std::optional<StepRecord> whole;
+  if (last) whole = run.reduction.whole(*last);
+  if (!whole) return {};
+  int n_examined = 0;
+  if (examined && when == StabilityCheck::each_step) n_examined = steps;
+  if (examined && when == StabilityCheck::last) n_examined = 1;
+  const LinearSolver::Size size = examined ? examined->size() : LinearSolver::Size{};
+  return forecast_of_mesh(*mesh, size, state_of(*whole, run.scene).u, steps, n_examined);
+}
+
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
-                             const Statics& statics, double estimate, bool quiet) {
+                             const Statics& statics, const MeshChecks& checks, double estimate,
+                             bool quiet) {
   const double free = std::min(free_memory(), free_address());
-  const Forecast f = forecast_of(config, body, statics, scene.stops);
+  // what the program did so far a run does as well
+  const double begin = cpu_seconds();
+  Forecast f = forecast_of(config, body, statics, scene.stops);
+  f.files += begin + checks.seconds;
+  f.bytes += checks.bytes;
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) {
       say_line("  {:<12}{}", part, says);
@@ -118,6 +148,11 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
             statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
             f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
+    if (checks.seconds > 0)
+      line("mesh", fmt::format("the states on the mesh take {} of CPU: balance {:.2g} s, points "
+                               "{:.2g} s, factorization {:.2g} s each",
+                               duration_in_words(checks.seconds), checks.assembly, checks.points,
+                               checks.factor));
     if (estimate > 0)
       line("estimate",
            fmt::format("about {} of CPU more, on other meshes", duration_in_words(estimate)));

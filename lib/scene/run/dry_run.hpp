@@ -29,9 +29,16 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& 
 Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
                      const Run::Where& where);
 
+// Of a run whose body one hexahedron stands for: what its mesh takes on top. Follows the path,
+// which costs little; examined: the mesh with the analysis of its tangent, none where no state's
+// stability is. Nothing where the mesh is solved itself.
+MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck when);
+
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
-// estimate: seconds that the estimate of its errors takes, 0 where none is wanted
+// estimate: seconds that the estimate of its errors takes, 0 where none is wanted; checks: of the
+// mesh that the body stands for
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
-                             const Statics& statics, double estimate, bool quiet);
+                             const Statics& statics, const MeshChecks& checks, double estimate,
+                             bool quiet);
 
 }  // namespace langer
