@@ -1,12 +1,16 @@
 // langer-fit: parameters of a law from measured tests.
 //   langer-fit abdomen.yaml -o material.h5        also writes fit.csv (measured stress, model, error) and the law as input
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
+#include <cmath>
+#include <filesystem>
+
 #include "core/base/interrupt.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
 #include "export/cards.hpp"
 #include "identification/fit/cross_check.hpp"
 #include "identification/fit/doubts.hpp"
+#include "identification/fit/left_out.hpp"
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/inverse/inverse_fit.hpp"
 #include "identification/inverse/scene_candidates.hpp"
@@ -29,14 +33,55 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
   }
 }
 
-void need_optimum(const Job<FitConfig>& job, const FitResult& found) {
-  if (!found.best.converged)
-    throw Failure(
-        Exit::not_converged,
-        {job.where("parameters"), "parameters",
-         fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
-                     job.config.searches(), found.best.why, found.best.kkt, found.best.cost),
-         "", "more starts, other start values or narrower bounds"});
+// A search without an optimum: the parameters that it reached, and the curves that they make. They
+// have names of their own, so that nothing takes them for a result.
+void write_reached(const Job<FitConfig>& job, const FitProblem& problem, const FitResult& found,
+                   const std::optional<InverseFit>& scenes) {
+  if (!std::isfinite(found.best.cost)) return;
+  std::string text = "parameter,key,reached,lower,upper\n";
+  const std::vector<std::string> names = parameter_names(problem);
+  for (std::size_t i = 0; i < problem.free.size(); ++i) {
+    const FreeParameter& p = problem.free[i];
+    text += fmt::format("{},{},{},{},{}\n", csv_cell(names[i]), csv_cell(p.key),
+                        found.best.p[static_cast<Eigen::Index>(i)], p.lower, p.upper);
+  }
+  write_text_file(job.beside("reached.csv"), text);
+  FitRecord record = fit_record(problem, found);
+  if (scenes) record.curves = scenes->curves(found);
+  if (!record.tests.empty()) write_text_file(job.beside("reached_fit.csv"), fit_csv(record));
+  for (const NamedTable& table : curve_tables(record))
+    write_text_file(job.beside("reached_" + table.name + ".csv"), table.text);
+  job.say(
+      "the parameters that the search reached are in {}: start from them, or judge their curves",
+      job.beside("reached.csv"));
+}
+
+// of an earlier run that found no optimum
+void remove_reached(const Job<FitConfig>& job) {
+  std::error_code ignored;
+  std::filesystem::remove(job.beside("reached.csv"), ignored);
+  std::filesystem::remove(job.beside("reached_fit.csv"), ignored);
+}
+
+FitResult search(const Job<FitConfig>& job, const FitProblem& problem,
+                 std::optional<InverseFit>& scenes) {
+  if (scenes) {
+    try {
+      return scenes->search();
+    } catch (const Failure& failure) {
+      if (scenes->reached()) write_reached(job, problem, *scenes->reached(), scenes);
+      throw;
+    }
+  }
+  FitResult found = best_fit(job.config, problem);
+  if (found.best.converged) return found;
+  write_reached(job, problem, found, scenes);
+  throw Failure(
+      Exit::not_converged,
+      {job.where("parameters"), "parameters",
+       fmt::format("no optimum from {} starts: {}; KKT residual {:.2g}, cost {:.6g} MPa^2",
+                   job.config.searches(), found.best.why, found.best.kkt, found.best.cost),
+       "", "more starts, other start values or narrower bounds"});
 }
 
 // A law that misses the data by more than their own mean does is no result; it is written all the
@@ -95,8 +140,8 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
                    job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(),
                    job.output + ".runs");
   }
-  FitResult found = scenes ? scenes->search() : best_fit(config, problem);
-  need_optimum(job, found);
+  FitResult found = search(job, problem, scenes);
+  remove_reached(job);
   const auto at_rest =
       scenes ? std::nullopt
              : stiffen_at_rest(problem, found,
@@ -104,6 +149,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
                                config.noise());
   FitRecord record = fit_record(problem, found);
   record.at_rest = at_rest;
+  if (config.leave_one_out) record.left_out_error_percent = left_out_error(problem, found);
   for (std::size_t i = 0; i < config.parameters.size(); ++i)
     record.parameters[i].truth = config.parameters[i].truth.value_or(std::nan(""));
   if (scenes)
@@ -113,7 +159,8 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   if (scenes)
     for (const std::string& line : scenes->cost()) job.say("{}", line);
   if (config.cross_check == SecondAnswer::nlopt) {
-    const Comparison second = cross_check(problem, found.best, static_cast<unsigned>(config.seed));
+    const Comparison second = cross_check(likelihood_problem(problem, found), found.best,
+                                          static_cast<unsigned>(config.seed));
     second.agrees ? job.say("{}", second.text) : job.warn("{}", second.text);
   }
   if (!scenes) record.study.range = fitted_range(found.material, problem.tests);

@@ -80,16 +80,41 @@ TEST_CASE("covariance, variance along a direction and likelihood are those of th
   double lowest = 1e300;
   for (int k = 0; k < 1000; ++k) {
     ResidualNoise unit = noise;
-    unit.white = 0, unit.rho = (1 - 1. / 12) * k / 999, unit.deviation = 1;
+    unit.white = 0;
+    unit.rho = (1 - 1. / 12) * k / 999;
+    unit.deviation = 1;
     const MatX R = dense(unit, 20);
-    // per innovation: |R| (1 - rho^2)^20 is the product of the curves' (1 - rho^2)
-    const double Q = (1 - unit.rho * unit.rho) * r.dot(R.inverse() * r);
-    lowest = std::min(lowest, 20 * std::log(Q / 20) + std::log(R.determinant()) -
-                                  20 * std::log(1 - unit.rho * unit.rho));
+    const double of_rho = 20 * std::log(r.dot(R.inverse() * r) / 20) + std::log(R.determinant());
+    CHECK(minus_two_log_likelihood(r, noise.curves, unit.rho) ==
+          doctest::Approx(of_rho).epsilon(1e-9));
+    lowest = std::min(lowest, of_rho);
   }
-  CHECK(minus_two_log_likelihood(r, noise) == near(lowest, 1e-4));
-  noise.rho = 0;
-  CHECK(minus_two_log_likelihood(r, noise) == near(20 * std::log(r.squaredNorm() / 20), 1e-12));
+  const double best = most_likely_correlation(r, noise.curves);
+  CHECK(minus_two_log_likelihood(r, noise.curves, best) == doctest::Approx(lowest).epsilon(1e-4));
+}
+
+TEST_CASE("noise that a fit took a correlation out of is that of the dense matrices") {
+  Random random(9);
+  const std::vector<Eigen::Index> curves{7, 1, 12};
+  ResidualNoise noise;
+  noise.curves = curves;
+  noise.deviation = 0.3;
+  noise.rho = 0.8;
+  const MatX R = dense(noise, 20) / (0.3 * 0.3);
+  noise.removed = 0.7;
+  MatX T = innovations(MatX::Identity(20, 20), curves, 0.7);
+  const MatX V = 0.09 * T * R * T.transpose() / (1 - 0.64);
+  const VecX v = normal(20, random);
+  CHECK(along(noise, v).variance == doctest::Approx(v.dot(V * v)).epsilon(1e-12));
+  const MatX J = normal(60, random).reshaped(20, 3);
+  const MatX inverse = (J.transpose() * J).inverse();
+  const MatX expected = inverse * J.transpose() * V * J * inverse;
+  CHECK((covariance(J, {false, false, false}, noise) - expected).norm() <= 1e-12 * expected.norm());
+  // the operation and its inverse
+  CHECK((from_innovations(T * v, curves, 0.7) - v).norm() <= 1e-12 * v.norm());
+  // where both correlations agree, what is left is white
+  noise.removed = 0.8;
+  CHECK(along(noise, v).variance == doctest::Approx(0.09 * v.squaredNorm()).epsilon(1e-12));
 }
 
 TEST_CASE("correlation and size of known noise are found, whatever the parameters took from it") {

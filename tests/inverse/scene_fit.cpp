@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/base/random.hpp"
 #include "identification/inverse/scene_data.hpp"
 #include "identification/setup/fit_config_io.hpp"
 #include "mechanics/mesh/select.hpp"
@@ -141,8 +142,27 @@ TEST_CASE(
   }
   CHECK(place_on(t, {0, 1}, -0.1).value.empty());
   CHECK(place_on(t, {0, 1}, 1.04).exists);
-  CHECK_FALSE(place_on(t, {0, 1}, 1.06).exists);
+  CHECK(place_on(t, {0, 1}, 1.14).exists);
+  CHECK_FALSE(place_on(t, {0, 1}, 1.16).exists);
   CHECK_FALSE(place_on({0.1, 0.2}, {0, 1}, 0.5).exists);
+}
+
+TEST_CASE("What is read of a path has no jump in its rate where a state is") {
+  const std::vector<double> t{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
+  const auto rate_at = [&](double x) {
+    double sum = 0;
+    for (const auto& [i, w] : place_on(t, {0, 1}, x).rate)
+      sum += w * std::pow(t[static_cast<std::size_t>(i)], 1.5);
+    return sum;
+  };
+  for (double x : {0.1, 0.2, 0.4, 0.6, 0.9}) {
+    CAPTURE(x);
+    CHECK(rate_at(x - 1e-7) == doctest::Approx(rate_at(x + 1e-7)).epsilon(1e-5));
+    CHECK(rate_at(x) == doctest::Approx(1.5 * std::sqrt(x)).epsilon(0.05));
+  }
+  // nor at the end of the path, behind which its last piece continues
+  CHECK(rate_at(1.02) > rate_at(0.98));
+  CHECK(rate_at(1 + 1e-7) == doctest::Approx(rate_at(1 - 1e-7)).epsilon(1e-5));
 }
 
 TEST_CASE("A history that comes back is followed in its order") {
@@ -332,6 +352,65 @@ TEST_CASE("Touch offset, force offset and compliance of the machine are found be
     CHECK(found.fit.best.p[0] == near(0.012, 1e-4));
     CHECK(found.fit.best.p[1] == near(machine.value, 1e-3));
   }
+}
+
+TEST_CASE("An offset of touch of either sign is found where all readings fall on increments") {
+  std::string scene = solve_yaml;
+  scene.replace(scene.find("steps: 5"), 8, "first: 0.05, largest: 0.05");
+  write("fine.yaml", scene);
+  auto loaded = read_config<SolveConfig>(load_yaml(folder + "/fine.yaml"));
+  ForwardRun run(loaded.config, loaded.where, 0);
+  run.observe({Observation{}}, {});
+  const ForwardPath exact = run.solve({*loaded.config.material});
+  const double largest = exact.values(exact.values.rows() - 1, 0);
+  for (double touch : {-0.05, 0.05})
+    for (std::uint64_t seed : {1, 2}) {
+      CAPTURE(touch);
+      CAPTURE(seed);
+      Random random(12, seed);
+      std::string text = "travel_mm,force_N\n";
+      for (std::size_t i = 1; i < exact.t.size(); ++i)
+        text += fmt::format(
+            "{},{}\n", exact.t[i] + touch,
+            exact.values(static_cast<Eigen::Index>(i), 0) + 0.005 * largest * random.normal());
+      write("touched.csv", text);
+      const Found found = fitted(fmt::format(
+          "data: [{{kind: scene, solve: fine.yaml, file: touched.csv, columns: {{u_ind: travel_mm, force: force_N}}, "
+          "standard_deviation: {}}}]\n"
+          "law: {{matrix: {{yeoh: {{a1: 0.03, a2: 0.01, a3: 0.01}}}}, volume: {{quadratic: {{d: 1.0e-2}}}}}}\n"
+          "parameters: [{{key: matrix.yeoh.a1, lower: 0.0001, upper: 1}}, {{key: matrix.yeoh.a2, lower: 0, upper: 1}}, "
+          "{{key: \"data[0].touch_offset\", lower: -0.2, upper: 0.2}}]\ndraft: false\n",
+          0.005 * largest));
+      CHECK(found.fit.best.converged);
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const double expected = std::array{0.012, 0.03, touch}[static_cast<std::size_t>(i)];
+        const double error = std::sqrt(found.fit.covariance(i, i));
+        CHECK(std::abs(found.fit.best.p[i] - expected) < 3.5 * error);
+      }
+    }
+}
+
+TEST_CASE("A search that ends without an optimum keeps what it reached") {
+  // a curve that begins 0.4 mm before the path does, so that its end is beyond the path's
+  std::string text = "travel_mm,force_mN\n";
+  for (int i = 1; i <= 10; ++i)
+    text += fmt::format("{},{}\n", 0.1 * i, 100 * std::pow(0.1 * i + 0.4, 1.8));
+  write("force.csv", text);
+  const auto loaded = read(std::string(force) + "}]\n" + law +
+                           "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0].touch_offset\", "
+                           "lower: -1, upper: 1}]\ndraft: false\n");
+  FitProblem problem = fit_problem(loaded.config);
+  InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {}, "");
+  CHECK_THROWS_AS(inverse.search(), Failure);
+  REQUIRE(inverse.reached());
+  const FitResult& reached = *inverse.reached();
+  CHECK_FALSE(reached.best.converged);
+  CHECK(std::isfinite(reached.best.cost));
+  // closer than where it began
+  CHECK(reached.best.p[1] < -0.05);
+  const std::vector<FittedCurve> curves = inverse.curves(reached);
+  REQUIRE(curves.size() == 1);
+  CHECK(curves[0].model.size() == curves[0].measured.size());
 }
 
 TEST_CASE("The derivative by what the machine adds is that of the model") {

@@ -142,3 +142,26 @@ expect_equal("${heads}" "u_ind_mm,force_mean_N,force_deviation_N,force_lower_95_
 file(WRITE ${folder}/sample.yaml "number: 1\n")
 run(2 ${BIN}/langer-sample sample.yaml --material open/fit/material.h5 --set number=61 -o none.h5)
 expect_said("number: 61, and open/fit/material.h5 has 60 sets")
+# A curve that begins 0.4 mm before the path does: its end is beyond the path, and no optimum can be reached. What was
+# reached is kept under names of its own, and an earlier result stays.
+file(WRITE ${folder}/shifted.csv "u_ind_mm,force_N
+0.1,0.0287\n0.2,0.0399\n0.3,0.0526\n0.4,0.0669\n0.5,0.0827\n0.6,0.1\n0.7,0.1187\n0.8,0.1388\n0.9,0.1604\n1.0,0.1832\n")
+file(WRITE ${folder}/shifted.yaml "data: [{kind: scene, solve: small.yaml, file: shifted.csv, name: shifted,
+  columns: {u_ind: u_ind_mm, force: force_N}, standard_deviation: 1.0e-3}]
+law: {matrix: {yeoh: {a1: 0.01, a2: 0.01, a3: 0.01}}, volume: {quadratic: {d: 1.0e-3}}}
+parameters: [{key: matrix.yeoh.a1, lower: 0.001, upper: 1}, {key: \"data[0].touch_offset\", lower: -1, upper: 1}]
+draft: false
+")
+run(4 ${BIN}/langer-fit shifted.yaml -o shifted/material.h5)
+expect_said("no optimum after")
+expect_said("reached.csv")
+foreach(file reached.csv reached_fit_shifted.csv)
+  if(NOT EXISTS ${folder}/shifted/${file})
+    message(FATAL_ERROR "a search without an optimum wrote no ${file}")
+  endif()
+endforeach()
+foreach(file material.h5 parameters.csv)
+  if(EXISTS ${folder}/shifted/${file})
+    message(FATAL_ERROR "a search without an optimum wrote ${file}")
+  endif()
+endforeach()

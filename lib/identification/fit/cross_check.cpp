@@ -40,8 +40,13 @@ double objective(const std::vector<double>& x, std::vector<double>& gradient, vo
 
 Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed,
                        int evaluations) {
+  return cross_check(least_squares_problem(problem), first, seed, evaluations);
+}
+
+Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& first, unsigned seed,
+                       int evaluations) {
   Objective f;
-  f.q = least_squares_problem(problem);
+  f.q = problem;
   f.scale = 0.5 * f.q.size * f.q.size;
   const auto n = static_cast<unsigned>(f.q.start.size());
   const auto list = [](const VecX& v) {

@@ -20,5 +20,8 @@ struct Comparison {
 
 Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed,
                        int evaluations = 20000);
+// of a problem whose least squares are a largest likelihood (likelihood_problem())
+Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& first, unsigned seed,
+                       int evaluations = 20000);
 
 }  // namespace langer

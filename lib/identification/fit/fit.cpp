@@ -114,16 +114,34 @@ double drawn(const FreeParameter& p, double u) {
   return p.lower + (wide_exponent ? u * u * u : u) * (p.upper - p.lower);
 }
 
-void know(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
+// Size and correlation of the noise that residuals show, with what the parameters took from them;
+// in: the parameters that were free.
+ResidualNoise shown_noise(const FitProblem& problem, const LeastSquares& q, const FitResult& fit,
+                          const std::vector<Eigen::Index>& in) {
   const LeastSquaresResult& best = fit.best;
-  const double size = q.size / std::sqrt(static_cast<double>(best.r.size()));
   const std::vector<Eigen::Index> curves = curve_sizes(problem);
+  if (fit.noise_model.rho > 0) {
+    MatX J;
+    const LeastSquares plain = least_squares_problem(problem);
+    if (!jacobian(plain, best.p, J)) throw std::logic_error("no derivative at an optimum");
+    const Standardizer by = standardizer(problem, fit.noise_model);
+    const MatX free = by.scaled_slope(fit.residual, J)(Eigen::all, in);
+    return innovation_noise(by.scaled(fit.residual), free, curves, fit.noise_model.rho,
+                            by.correlation_scale());
+  }
+  const double size = q.size / std::sqrt(static_cast<double>(best.r.size()));
+  const ResidualNoise shown = residual_noise(best.r, best.J(Eigen::all, in), curves, size);
+  return problem.further ? with_least(shown, 1) : shown;
+}
+
+// Noise, angles of symmetry and covariance. q: the problem whose least squares the fit found.
+void set_covariance(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
+  const LeastSquaresResult& best = fit.best;
   const auto noise = [&] {
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < best.p.size(); ++i)
       if (!fit.left_out[static_cast<std::size_t>(i)]) in.push_back(i);
-    const ResidualNoise shown = residual_noise(best.r, best.J(Eigen::all, in), curves, size);
-    return problem.further ? with_least(shown, 1) : shown;
+    return shown_noise(problem, q, fit, in);
   };
   fit.left_out = best.at_bound;
   fit.noise = noise();
@@ -132,7 +150,8 @@ void know(const FitProblem& problem, const LeastSquares& q, FitResult& fit) {
   for (const MaterialParameter& p : chosen(law, problem.free))
     turn.push_back(p.unit == unit::deg ? 180 : 0);
   const SymmetricAngles found = symmetric_angles(q, best, fit.noise.total(), turn);
-  fit.symmetric = found.at, fit.columns = found.columns;
+  fit.symmetric = found.at;
+  fit.columns = found.columns;
   for (std::size_t i = 0; i < found.at.size(); ++i)
     if (found.at[i]) fit.left_out[i] = true;
   if (fit.left_out != best.at_bound) fit.noise = noise();
@@ -198,6 +217,15 @@ double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult&
                     : std::numeric_limits<double>::quiet_NaN();
 }
 
+// NaN where there are too few values
+double aicc(double minus_two_log_likelihood, const FitProblem& problem, const NoiseModel& noise) {
+  double n = problem.further ? static_cast<double>(problem.further->measured().size()) : 0;
+  for (const Test& test : problem.tests) n += static_cast<double>(test.values());
+  const double k = static_cast<double>(problem.free.size()) + 1 + noise.parameters();
+  if (!(n > k + 1)) return std::numeric_limits<double>::quiet_NaN();
+  return minus_two_log_likelihood + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+}
+
 void judge(const FitProblem& problem, FitResult& fit) {
   const VecX stress = measured_stress(problem.tests);
   const auto n = static_cast<double>(fit.best.r.size());
@@ -207,16 +235,10 @@ void judge(const FitProblem& problem, FitResult& fit) {
     fit.quality = quality(fit.model, stress, 1);
   fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
   judge_errors(problem, stress, fit);
-  const bool correlated = fit.noise.rho > 0;
-  const double spread =
-      correlated
-          ? minus_two_log_likelihood(fit.best.r, fit.noise)
-          : n * std::log(std::max(2 * fit.best.cost, std::numeric_limits<double>::min()) / n);
-  const double k = static_cast<double>(problem.free.size()) + (correlated ? 2 : 1),
-               m = fit.noise.effective;
-  fit.quality.aicc = m > k + 1 ? spread + 2 * k + 2 * k * (k + 1) / (m - k - 1)
-                               : std::numeric_limits<double>::quiet_NaN();
-  fit.quality.bic = spread + k * std::log(m);
+  const double spread = minus_two_log_likelihood(fit.best.r);
+  fit.quality.aicc = aicc(spread, problem, fit.noise_model);
+  const double k = static_cast<double>(problem.free.size()) + 1 + fit.noise_model.parameters();
+  fit.quality.bic = spread + k * std::log(n);
 }
 
 // the residuals of further tests behind those of q, and the slope of all
@@ -306,6 +328,32 @@ VecX weights(const std::vector<Test>& tests) {
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+namespace {
+
+// zero stress in the state of rest, which the zero of the device makes and no noise
+std::vector<bool> values_at_rest(const std::vector<Test>& tests) {
+  std::vector<bool> all;
+  for (const Test& test : tests) {
+    const double rest = test.kind == TestKind::simple_shear ? 0 : 1;
+    for (const auto* list : {&test.stress_x, &test.stress_z})
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        const bool second = test.second.empty() || test.second[i] == 1;
+        all.push_back((*list)[i] == 0 && test.first[i] == rest && second);
+      }
+  }
+  return all;
+}
+
+VecX weighted_stress(const FitProblem& problem) {
+  return weights(problem.tests).cwiseProduct(measured_stress(problem.tests));
+}
+
+}  // namespace
+
+Standardizer standardizer(const FitProblem& problem, const NoiseModel& noise) {
+  return {weighted_stress(problem), curve_sizes(problem), values_at_rest(problem.tests), noise};
+}
+
 Material with_parameters(const FitProblem& problem, const VecX& p) {
   Material material = problem.law;
   const auto list = chosen(material, problem.free);
@@ -339,6 +387,173 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
     q.lower[i] -= q.period.back(), q.upper[i] += q.period.back();
   }
   return problem.further ? with_further(std::move(q), problem.further) : q;
+}
+
+namespace {
+
+// q: the problem under white noise; e: its residuals at the point that sets the size
+LeastSquares under_noise(const LeastSquares& q, const FitProblem& problem, const NoiseModel& noise,
+                         const VecX& e) {
+  const Standardizer by = standardizer(problem, noise);
+  LeastSquares whitened = standardized(q, by);
+  whitened.size = by.size(e);
+  return whitened;
+}
+
+// Parameters and noise of largest likelihood, of one kind of noise.
+struct Likeliest {
+  NoiseModel noise;
+  LeastSquaresResult best;
+  double minus_two_log_likelihood = std::numeric_limits<double>::infinity();
+};
+
+// Alternates between the parameters for known noise and the noise for known parameters. Both lower
+// -2 ln L, and the two hardly depend on each other: a few rounds suffice.
+Likeliest alternate(const FitProblem& problem, const LeastSquares& q, const VecX& from,
+                    NoiseModel noise, const LeastSquaresOptions& options) {
+  constexpr int rounds = 40;
+  Likeliest found;
+  VecX p = from;
+  VecX e;
+  if (!q.residual(p, e)) return found;
+  const VecX measured = weighted_stress(problem);
+  const std::vector<Eigen::Index> curves = curve_sizes(problem);
+  const std::vector<bool> rest = values_at_rest(problem.tests);
+  for (int round = 0; round < rounds; ++round) {
+    LeastSquares u = under_noise(q, problem, noise, e);
+    u.start = p;
+    found.best = search(problem, u, options);
+    if (!std::isfinite(found.best.cost) || !q.residual(found.best.p, e)) return {};
+    p = found.best.p;
+    found.noise = noise;
+    const double before = found.minus_two_log_likelihood;
+    found.minus_two_log_likelihood = minus_two_log_likelihood(found.best.r);
+    noise = most_likely_noise(e, measured, curves, rest, noise.kind);
+    const bool same = std::abs(noise.rho - found.noise.rho) < 1e-9 &&
+                      std::abs(noise.share - found.noise.share) < 1e-9 * (1 - noise.share);
+    if (same || std::abs(before - found.minus_two_log_likelihood) < 1e-10) break;
+  }
+  return found;
+}
+
+// of several starts the one of largest likelihood; one without an optimum only where there is no
+// other
+void keep_likelier(Likeliest& best, Likeliest other) {
+  const bool likelier = other.minus_two_log_likelihood < best.minus_two_log_likelihood;
+  const bool better = other.best.converged && (likelier || !best.best.converged);
+  const bool none_converged = !other.best.converged && !best.best.converged && likelier;
+  if (better || none_converged) best = std::move(other);
+}
+
+NoiseModel largest_noise(const FitProblem& problem, NoiseKind kind) {
+  NoiseModel noise;
+  noise.kind = kind;
+  if (noise.correlated()) noise.rho = largest_correlation(curve_sizes(problem));
+  return noise;
+}
+
+// from one set of parameters: with the noise that its residuals show, and with the largest
+// correlation, where a law that misses the curves may have an optimum of its own
+Likeliest likeliest_from(const FitProblem& problem, const LeastSquares& q, const VecX& p,
+                         NoiseKind kind, const LeastSquaresOptions& options) {
+  VecX e;
+  if (!q.residual(p, e)) return {};
+  const NoiseModel shown = most_likely_noise(e, weighted_stress(problem), curve_sizes(problem),
+                                             values_at_rest(problem.tests), kind);
+  Likeliest best = alternate(problem, q, p, shown, options);
+  const NoiseModel largest = largest_noise(problem, kind);
+  if (largest.rho > 0) keep_likelier(best, alternate(problem, q, p, largest, options));
+  return best;
+}
+
+// other optima of least squares that the starts found, the lowest first
+std::vector<VecX> other_optima(const FitResult& fit, const LeastSquares& q) {
+  constexpr std::size_t most = 3;
+  const Eigen::Index n = fit.best.p.size();
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index k = 0; k < fit.starts.rows(); ++k)
+    if (std::isfinite(fit.starts(k, n))) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return fit.starts(a, n) < fit.starts(b, n);
+  });
+  std::vector<VecX> others;
+  const auto apart = [&](const VecX& a, const VecX& b) {
+    double largest = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      largest = std::max(largest, std::abs(difference(q, i, a[i], b[i])) / q.typical[i]);
+    return largest > 1e-3;
+  };
+  for (const Eigen::Index k : order) {
+    const VecX p = fit.starts.row(k).head(n).transpose();
+    bool known = !apart(p, fit.best.p);
+    for (const VecX& other : others) known = known || !apart(p, other);
+    if (!known) others.push_back(p);
+    if (others.size() == most) break;
+  }
+  return others;
+}
+
+// The kinds of noise that may be chosen, those that contain others last.
+std::vector<NoiseKind> kinds_of(NoiseKind asked) {
+  if (asked != NoiseKind::automatic) return {asked};
+  return {NoiseKind::proportional, NoiseKind::autoregressive, NoiseKind::both};
+}
+
+// Replaces the least squares of `fit` by the largest likelihood of the noise that was asked for;
+// of several kinds by the one of lowest AICc.
+void choose_noise(const FitProblem& problem, const LeastSquares& q, const FitOptions& options,
+                  FitResult& fit) {
+  std::vector<Likeliest> found;
+  Likeliest white;
+  white.best = fit.best;
+  white.minus_two_log_likelihood = minus_two_log_likelihood(fit.best.r);
+  for (const NoiseKind kind : kinds_of(problem.noise)) {
+    Likeliest best = likeliest_from(problem, q, fit.best.p, kind, options.least_squares);
+    // a kind that contains others is no less likely than they are
+    for (const Likeliest& inner : found) {
+      if (kind != NoiseKind::both || !inner.best.converged) continue;
+      NoiseModel begin = inner.noise;
+      begin.kind = kind;
+      keep_likelier(best, alternate(problem, q, inner.best.p, begin, options.least_squares));
+    }
+    found.push_back(std::move(best));
+  }
+  const bool choose = problem.noise == NoiseKind::automatic;
+  std::size_t chosen = 0;
+  if (choose) found.insert(found.begin(), white);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double value = aicc(found[k].minus_two_log_likelihood, problem, found[k].noise);
+    fit.noise_candidates.push_back({found[k].noise, found[k].minus_two_log_likelihood, value});
+    if (k > 0 && found[k].best.converged && value < fit.noise_candidates[chosen].aicc) chosen = k;
+  }
+  Likeliest best = std::move(found[chosen]);
+  if (best.noise.is_white()) return;
+  for (const VecX& p : other_optima(fit, q))
+    keep_likelier(best, likeliest_from(problem, q, p, best.noise.kind, options.least_squares));
+  fit.noise_candidates[chosen] = {best.noise, best.minus_two_log_likelihood,
+                                  aicc(best.minus_two_log_likelihood, problem, best.noise)};
+  if (best.best.r.size() == 0) {
+    fit.best.converged = false;
+    fit.best.why = "the likelihood of the noise asked for has no maximum that was found";
+    return;
+  }
+  fit.noise_model = best.noise;
+  fit.best = std::move(best.best);
+}
+
+// Data that the law follows to 1e-4 have no noise that a load cell resolves.
+bool has_noise(const LeastSquaresResult& best, double size) {
+  const auto freedom = static_cast<double>(best.r.size() - best.p.size());
+  const double mean_square = size * size / static_cast<double>(best.r.size());
+  return freedom > 0 && 2 * best.cost > 1e-8 * mean_square * freedom;
+}
+
+}  // namespace
+
+LeastSquares likelihood_problem(const FitProblem& problem, const FitResult& fit) {
+  LeastSquares q = least_squares_problem(problem);
+  if (fit.noise_model.is_white()) return q;
+  return under_noise(q, problem, fit.noise_model, fit.residual);
 }
 
 LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
@@ -384,14 +599,21 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
       fit.best = std::move(one);
     }
   }
+  q.start = given;
+  const bool noisy = fit.best.converged && has_noise(fit.best, q.size);
+  if (problem.noise != NoiseKind::white && !problem.further && noisy)
+    choose_noise(problem, q, options, fit);
   fit.material = with_parameters(problem, fit.best.p);
   if (std::isfinite(fit.best.cost)) {
-    know(problem, q, fit);
+    fit.residual = fit.best.r;
+    if (!fit.noise_model.is_white() && !q.residual(fit.best.p, fit.residual))
+      throw std::logic_error("no model at an optimum");
+    set_covariance(problem, likelihood_problem(problem, fit), fit);
     const VecX stress = measured_stress(problem.tests);
-    fit.model = stress + fit.best.r.head(stress.size()).cwiseQuotient(weights(problem.tests));
+    fit.model = stress + fit.residual.head(stress.size()).cwiseQuotient(weights(problem.tests));
     if (const auto& more = problem.further)
-      fit.further =
-          more->measured() + fit.best.r.tail(more->measured().size()).cwiseQuotient(more->weight());
+      fit.further = more->measured() +
+                    fit.residual.tail(more->measured().size()).cwiseQuotient(more->weight());
     judge(problem, fit);
   }
   return fit;

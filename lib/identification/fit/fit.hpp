@@ -6,10 +6,14 @@
 // told within the box. The search starts at the given values and at seeded random places of the
 // box; the lowest cost wins, the first of equals. Everything here may run on several threads at
 // once, each with its own problem or result.
+// Where the noise of tests is not white (noise_model.hpp), parameters and noise are those of
+// largest likelihood: the search begins at the least squares and alternates between both. A nested
+// law or noise model never has a larger likelihood than the one that contains it.
 #pragma once
 
 #include <memory>
 
+#include "identification/fit/noise_model.hpp"
 #include "identification/fit/residual_noise.hpp"
 #include "identification/fit/test_data.hpp"
 #include "mechanics/material/parameters.hpp"
@@ -47,6 +51,7 @@ struct FitProblem {
   std::vector<Tie> ties = {};                          // resolved; of numbers that are not free
   std::shared_ptr<FurtherTests> further =
       {};  // their weights are believed in: errors are no smaller than these make them
+  NoiseKind noise = NoiseKind::white;  // of the tests; with further tests white only
 };
 
 struct FitOptions {
@@ -58,17 +63,26 @@ struct FitOptions {
 // How well a law describes the tests. Errors are |model - stress| in percent of the largest
 // |stress| of the test; NaN for a test without stress, which those of all tests leave out.
 //   r2 = 1 - sum (model - stress)^2 / sum (stress - mean stress)^2, NaN where every stress is the same
-//   aicc = -2 ln L + 2 k + 2 k (k + 1)/(n - k - 1),  bic = -2 ln L + k ln n
-// Where residuals are not correlated -2 ln L = N ln(2 cost/N), k = parameters + 1, n = N, the
-// number of values. Where they are, L is that of the autoregression (residual_noise.hpp), k one
-// more and n the effective number of values.
+//   aicc = -2 ln L + 2 k + 2 k (k + 1)/(N - k - 1),  bic = -2 ln L + k ln N
+// L is the likelihood of the noise model at its maximum over parameters and noise, but for a
+// constant of the data: -2 ln L = N ln(2 cost/N) where the noise is white. N is the number of
+// values; k counts parameters, the deviation and the numbers of the noise model.
 struct FitQuality {
   double r2 = 0, aicc = 0, bic = 0, mean_error_percent = 0, max_error_percent = 0;
 };
 
+// What a noise model makes of the tests, for the choice among them.
+struct NoiseCandidate {
+  NoiseModel noise;
+  double minus_two_log_likelihood = 0, aicc = 0;
+};
+
 struct FitResult {
-  Material material;  // the law with the parameters found
-  LeastSquaresResult best;
+  Material material;        // the law with the parameters found
+  LeastSquaresResult best;  // its residuals are those of likelihood_problem()
+  VecX residual;            // weight (model - measured), whatever the noise
+  NoiseModel noise_model;
+  std::vector<NoiseCandidate> noise_candidates;  // those that were compared; white first
   MatX covariance;  // under `noise`; NaN where the tests do not determine a parameter, and for
                     // those left out
   ResidualNoise noise;
@@ -94,11 +108,17 @@ std::vector<Eigen::Index> curve_sizes(
     const FitProblem& problem);  // values of each measured curve, in the order above
 VecX weights(const std::vector<Test>& tests);
 
+// residuals of all values to residuals that are alike and independent under a noise model
+Standardizer standardizer(const FitProblem& problem, const NoiseModel& noise);
+
 // the law with the numbers p in place of the free ones
 Material with_parameters(const FitProblem& problem, const VecX& p);
 
 // The problem in numbers. It holds copies of everything, but works in them: one copy per thread.
 LeastSquares least_squares_problem(const FitProblem& problem);
+
+// The same under the noise that a fit found: its least squares are the parameters of that fit.
+LeastSquares likelihood_problem(const FitProblem& problem, const FitResult& fit);
 
 // one search, from given values
 LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,

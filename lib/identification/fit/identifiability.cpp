@@ -42,6 +42,17 @@ struct Held {
       for (Eigen::Index i = 0; i < n - 1; ++i) p[free[static_cast<std::size_t>(i)]] = q[i];
       return all.residual(p, r);
     };
+    if (!all.cheap_slope) return;
+    rest.cheap_slope = true;
+    rest.slope = [&all, free, held, x, n](const VecX& q, MatX& J) {
+      VecX p(n);
+      p[held] = x;
+      for (Eigen::Index i = 0; i < n - 1; ++i) p[free[static_cast<std::size_t>(i)]] = q[i];
+      MatX J_all;
+      if (!all.slope(p, J_all)) return false;
+      J = J_all(Eigen::all, free);
+      return true;
+    };
   }
 };
 
@@ -198,6 +209,16 @@ std::string sloppy_words(const Identifiability& s, const std::vector<std::string
                      sigma > 1e-6 ? 1. : sigma, sigma > 1e-6 ? "" : "s");
 }
 
+Profile profile(const LeastSquares& problem, Eigen::Index parameter, const VecX& best, double error,
+                double noise, double limit) {
+  VecX r;
+  Profile both;
+  if (!problem.residual(best, r)) return both;
+  for (int side : {-1, 1})
+    walk(both, problem, parameter, best, error, r.squaredNorm(), noise, limit, side);
+  return both;
+}
+
 std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error,
                               double noise, const ProfileOptions& options) {
   const auto n = static_cast<int>(best.size()), jobs = 2 * n;
@@ -239,21 +260,16 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
 
 namespace {
 
-// draws residuals like those of the fit
+// Draws residuals like those of the fit. z are the residuals before a correlation was taken out.
 class Residuals {
  public:
   Residuals(const VecX& r, const ResidualNoise& noise, double growth)
-      : noise_(noise), innovation_(r) {
-    Eigen::Index at = 0;
-    const double begin = std::sqrt(1 - noise.rho * noise.rho);
-    for (Eigen::Index n : noise.curves) {
-      for (Eigen::Index i = n - 1; i > 0; --i) innovation_[at + i] -= noise.rho * r[at + i - 1];
-      if (n > 0) innovation_[at] *= begin;
-      at += n;
-    }
+      : noise_(noise), innovation_(innovations(correlated(r), noise.curves, noise.rho)) {
     innovation_.array() -= innovation_.mean();
     const double size = innovation_.norm() / std::sqrt(static_cast<double>(r.size()));
-    innovation_ *= size > 0 ? growth * noise.deviation * begin / size : 0;
+    double deviation = noise.deviation;
+    if (noise.removed == 0) deviation *= std::sqrt(1 - noise.rho * noise.rho);
+    if (size > 0) innovation_ *= growth * deviation / size;
     block_ = noise.rho > 0
                  ? static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size()))))
                  : 1;
@@ -272,13 +288,18 @@ class Residuals {
         e[at] = i == 0 ? u / std::sqrt(1 - noise_.rho * noise_.rho) : noise_.rho * e[at - 1] + u;
       }
     }
+    if (noise_.removed > 0) e = innovations(e, noise_.curves, noise_.removed);
     if (noise_.white > 0)
       for (double& x : e) x += noise_.white * random.normal();
     return e;
   }
 
  private:
-  const ResidualNoise& noise_;
+  VecX correlated(const VecX& r) const {
+    return noise_.removed > 0 ? from_innovations(r, noise_.curves, noise_.removed) : r;
+  }
+
+  const ResidualNoise& noise_;  // before innovation_, whose beginning needs it
   VecX innovation_;
   Eigen::Index block_ = 1;
 };

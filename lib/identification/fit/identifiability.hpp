@@ -57,6 +57,10 @@ struct ProfileOptions {
 std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error,
                               double noise, const ProfileOptions& options);
 
+// Of one parameter; only low, high and whether they are open are in order.
+Profile profile(const LeastSquares& problem, Eigen::Index parameter, const VecX& best, double error,
+                double noise, double limit = ProfileOptions{}.limit);
+
 // the rise at one value: at most the limit where the interval holds it
 double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value,
                     const VecX& best, double noise);

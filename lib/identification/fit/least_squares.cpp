@@ -208,7 +208,8 @@ class LevenbergMarquardt {
       D_ = D_.cwiseMax(s_.J.colwise().norm().transpose());
       for (Eigen::Index i = 0; i < D_.size(); ++i)
         if (D_[i] == 0) D_[i] = 1 / std::max(q_.typical[i], eps);
-      if (s_.iterations >= slow_ && !q_.slope) curvature_ = residual_curvature(q_, s_.p, s_.r);
+      if (s_.iterations >= slow_ && (!q_.slope || q_.cheap_slope))
+        curvature_ = residual_curvature(q_, s_.p, s_.r);
       bool accepted = false;
       while (!accepted && mu_ < 1e12 && !small_) accepted = step(options.step);
       if (small_) {

@@ -28,6 +28,7 @@ struct LeastSquares {
   std::function<bool(const VecX& p, MatX& J)> slope = {};
   VecX start, lower, upper, typical;
   double size = 1;
+  bool cheap_slope = false;  // `slope` costs as little as differences: no runs of scenes
   std::vector<bool>
       linear;  // parameters in which r is linear: one difference gives their column; empty: none
   std::vector<double>

@@ -13,13 +13,13 @@ namespace {
 
 using Curves = std::vector<Eigen::Index>;
 
-// innovations of columns: A_i - rho A_(i-1) within a curve, sqrt(1 - rho^2) A_0 at its beginning
-MatX innovations(const MatX& A, const Curves& curves, double rho) {
+// the transpose of innovations()
+MatX transposed_innovations(const MatX& A, const Curves& curves, double rho) {
   MatX B = A;
   Eigen::Index at = 0;
   for (Eigen::Index n : curves) {
     if (n > 0) B.row(at) *= std::sqrt(1 - rho * rho);
-    for (Eigen::Index i = 1; i < n; ++i) B.row(at + i) -= rho * A.row(at + i - 1);
+    for (Eigen::Index i = 1; i < n; ++i) B.row(at + i - 1) -= rho * A.row(at + i);
     at += n;
   }
   return B;
@@ -51,6 +51,21 @@ MatX correlated(const MatX& A, const Curves& curves, double rho) {
     at += n;
   }
   return forward + backward - A;
+}
+
+// direction^T V direction at a deviation of 1 and a correlation
+double correlated_square(const VecX& v, const ResidualNoise& noise, double rho) {
+  if (noise.removed == 0) return correlated_square(v, noise.curves, rho);
+  const VecX back = transposed_innovations(v, noise.curves, noise.removed);
+  return correlated_square(back, noise.curves, rho) / (1 - rho * rho);
+}
+
+// V A at a deviation of 1
+MatX correlated(const MatX& A, const ResidualNoise& noise) {
+  if (noise.removed == 0) return correlated(A, noise.curves, noise.rho);
+  const MatX back = transposed_innovations(A, noise.curves, noise.removed);
+  return innovations(correlated(back, noise.curves, noise.rho), noise.curves, noise.removed) /
+         (1 - noise.rho * noise.rho);
 }
 
 // an orthonormal basis of the columns' space
@@ -108,12 +123,6 @@ double highest(F f, double high) {
   return f(inside) > value ? inside : at(best);
 }
 
-// a correlation over more than the longest curve is not told from a shift of it
-double largest_rho(const Curves& curves) {
-  const Eigen::Index longest = curves.empty() ? 1 : *std::max_element(curves.begin(), curves.end());
-  return 1 - 1 / static_cast<double>(std::max<Eigen::Index>(longest, 2));
-}
-
 double effective_values(const Curves& curves, double rho) {
   double sum = 0;
   for (Eigen::Index n : curves) {
@@ -139,7 +148,65 @@ MatX chosen_columns(const MatX& J, const std::vector<bool>& left_out, Eigen::Ind
   return J(Eigen::all, in);
 }
 
+// What the restricted likelihood says of a correlation and its neighbours. U (m, k): orthonormal
+// columns of the space that the parameters span.
+void set_correlation(const VecX& r, const MatX& U, double rho, ResidualNoise& noise) {
+  const Restricted best = restricted(r, U, noise.curves, rho);
+  noise.rho = rho;
+  noise.deviation = best.deviation;
+  noise.effective = effective_values(noise.curves, rho);
+  const double h = std::min(0.02, 0.3 * (1 - rho));
+  const Restricted below = restricted(r, U, noise.curves, std::max(0., rho - h));
+  const Restricted above = restricted(r, U, noise.curves, rho + h);
+  const double curvature =
+      -(above.log_likelihood - 2 * best.log_likelihood + below.log_likelihood) / (h * h);
+  const double most = 1 - rho * rho;
+  noise.rho_variance = most;
+  if (curvature > 0) noise.rho_variance = std::min(1 / curvature, most);
+  noise.below = {below.rho, below.deviation};
+  noise.above = {above.rho, above.deviation};
+}
+
 }  // namespace
+
+MatX innovations(const MatX& A, const std::vector<Eigen::Index>& curves, double rho) {
+  MatX B = A;
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    if (n > 0) B.row(at) *= std::sqrt(1 - rho * rho);
+    for (Eigen::Index i = 1; i < n; ++i) B.row(at + i) -= rho * A.row(at + i - 1);
+    at += n;
+  }
+  return B;
+}
+
+VecX from_innovations(const VecX& u, const std::vector<Eigen::Index>& curves, double rho) {
+  VecX z = u;
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    if (n > 0) z[at] /= std::sqrt(1 - rho * rho);
+    for (Eigen::Index i = 1; i < n; ++i) z[at + i] += rho * z[at + i - 1];
+    at += n;
+  }
+  return z;
+}
+
+double largest_correlation(const std::vector<Eigen::Index>& curves) {
+  Eigen::Index longest = 2;
+  for (Eigen::Index n : curves) longest = std::max(longest, n);
+  return 1 - 1 / static_cast<double>(longest);
+}
+
+double most_likely_correlation(const VecX& z, const std::vector<Eigen::Index>& curves) {
+  const auto likelihood = [&](double rho) {
+    return -minus_two_log_likelihood(z, curves, rho);
+  };
+  const double limit = largest_correlation(curves);
+  const double rho = highest(likelihood, limit);
+  // the search ends within 1e-9 of a limit that it cannot reach
+  if (likelihood(limit) >= likelihood(rho)) return limit;
+  return rho;
+}
 
 ResidualNoise white_noise(double deviation, Eigen::Index values) {
   ResidualNoise noise;
@@ -156,24 +223,38 @@ ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eig
   if (free <= 0) return noise;
   noise.freedom = static_cast<double>(free);
   noise.deviation = r.norm() / std::sqrt(noise.freedom);
-  const double high = largest_rho(curves);
   if (free < 3 || noise.deviation <= 1e-4 * size) return noise;
-  const auto at = [&](double rho) {
-    return restricted(r, U, curves, rho);
+  const auto likelihood = [&](double rho) {
+    return restricted(r, U, curves, rho).log_likelihood;
   };
-  const double rho = highest([&](double x) { return at(x).log_likelihood; }, high);
-  const Restricted best = at(rho);
-  if (2 * (best.log_likelihood - at(0).log_likelihood) < 2.706) return noise;
-  noise.rho = rho, noise.deviation = best.deviation,
-  noise.effective = effective_values(curves, rho);
-  const double h = std::min(0.02, 0.3 * (1 - rho));
-  const Restricted below = at(std::max(0., rho - h)), above = at(rho + h);
-  const double curvature =
-                   -(above.log_likelihood - 2 * best.log_likelihood + below.log_likelihood) /
-                   (h * h),
-               most = 1 - rho * rho;
-  noise.rho_variance = curvature > 0 ? std::min(1 / curvature, most) : most;
-  noise.below = {below.rho, below.deviation}, noise.above = {above.rho, above.deviation};
+  const double rho = highest(likelihood, largest_correlation(curves));
+  if (2 * (likelihood(rho) - likelihood(0)) < 2.706) return noise;
+  set_correlation(r, U, rho, noise);
+  return noise;
+}
+
+ResidualNoise innovation_noise(const VecX& z, const MatX& J,
+                               const std::vector<Eigen::Index>& curves, double removed,
+                               double scale) {
+  ResidualNoise noise;
+  noise.curves = curves;
+  noise.removed = removed;
+  noise.effective = static_cast<double>(z.size());
+  const MatX U = column_space(J);
+  const Eigen::Index free = z.size() - U.cols();
+  if (free <= 0) return noise;
+  noise.freedom = static_cast<double>(free);
+  const auto likelihood = [&](double rho) {
+    return restricted(z, U, curves, rho).log_likelihood;
+  };
+  set_correlation(z, U, highest(likelihood, largest_correlation(curves)), noise);
+  // of the innovations, in units of u
+  const auto of_innovations = [&](double rho, double deviation) {
+    return scale * deviation * std::sqrt(1 - rho * rho);
+  };
+  noise.deviation = of_innovations(noise.rho, noise.deviation);
+  noise.below.deviation = of_innovations(noise.below.rho, noise.below.deviation);
+  noise.above.deviation = of_innovations(noise.above.rho, noise.above.deviation);
   return noise;
 }
 
@@ -185,13 +266,13 @@ ResidualNoise with_least(ResidualNoise noise, double least) {
 
 NoiseAlong along(const ResidualNoise& noise, const VecX& direction) {
   const auto shown = [&](double rho, double deviation) {
-    return deviation * deviation * correlated_square(direction, noise.curves, rho);
+    return deviation * deviation * correlated_square(direction, noise, rho);
   };
   const double square = shown(noise.rho, noise.deviation);
   const double variance = square + noise.white * noise.white * direction.squaredNorm();
   if (!(square > 0) || std::isinf(noise.freedom)) return {variance, inf};
   double relative = 2 / noise.freedom;
-  if (noise.rho > 0 && noise.above.rho > noise.below.rho) {
+  if (noise.above.rho > noise.below.rho) {
     const double slope = std::log(shown(noise.above.rho, noise.above.deviation) /
                                   shown(noise.below.rho, noise.below.deviation)) /
                          (noise.above.rho - noise.below.rho);
@@ -221,8 +302,8 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   for (Eigen::Index c = 0; c < sv.size(); ++c)
     if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= of.V.col(c).cwiseAbs2();
   const MatX P = of.U * inverse.asDiagonal() * of.V.transpose();  // (m, k): parameters are P^T e
-  const MatX VP = noise.deviation * noise.deviation * correlated(P, noise.curves, noise.rho) +
-                  noise.white * noise.white * P;
+  const MatX VP =
+      noise.deviation * noise.deviation * correlated(P, noise) + noise.white * noise.white * P;
   const MatX all = P.transpose() * VP;
   for (Eigen::Index a = 0; a < k; ++a)
     for (Eigen::Index b = 0; b < k; ++b)
@@ -247,16 +328,12 @@ VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out,
   return factors;
 }
 
-double minus_two_log_likelihood(const VecX& r, const ResidualNoise& noise) {
+double minus_two_log_likelihood(const VecX& r, const std::vector<Eigen::Index>& curves,
+                                double rho) {
   const auto n = static_cast<double>(r.size());
-  const auto value = [&](double rho) {
-    const double rest = std::max(innovations(r, noise.curves, rho).squaredNorm(),
-                                 std::numeric_limits<double>::min());
-    return n * std::log(rest / n) -
-           static_cast<double>(noise.curves.size()) * std::log1p(-rho * rho);
-  };
-  if (noise.rho == 0) return value(0);
-  return value(highest([&](double rho) { return -value(rho); }, largest_rho(noise.curves)));
+  const double rest =
+      std::max(innovations(r, curves, rho).squaredNorm(), std::numeric_limits<double>::min());
+  return n * std::log(rest / n) - static_cast<double>(curves.size()) * std::log1p(-rho * rho);
 }
 
 }  // namespace langer

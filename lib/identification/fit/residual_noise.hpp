@@ -7,6 +7,11 @@
 // significantly (5 %, one-sided), and where residuals are below 1e-4 of the data, which no load
 // cell resolves. Least squares stays as it is; what is known of its answer is the sandwich (J^T
 // J)^-1 J^T V J (J^T J)^-1.
+//
+// A fit whose noise model is autoregressive (noise_model.hpp) has residuals u from which a
+// correlation, `removed`, was taken out beforehand. The restricted likelihood finds a somewhat
+// larger one, so that what remains has the covariance
+//   V = deviation^2 T R T^T / (1 - rho^2),   T the innovations by `removed`;  V = deviation^2 I where both agree
 #pragma once
 
 #include <limits>
@@ -19,8 +24,9 @@ namespace langer {
 struct ResidualNoise {
   std::vector<Eigen::Index> curves;  // values of each, in the order of the residuals
   double deviation = 0, rho = 0;
-  double white = 0;  // further standard deviation, from value to value: noise that is believed in
-                     // beyond what the residuals show
+  double removed = 0;  // correlation that the residuals were freed of; 0: none
+  double white = 0;    // further standard deviation, from value to value: noise that is believed in
+                       // beyond what the residuals show
   double effective = 0;  // independent values that say as much of a mean: sum over curves of n / (1
                          // + 2 sum_k (1 - k/n) rho^k)
   double freedom =
@@ -43,6 +49,21 @@ ResidualNoise white_noise(double deviation, Eigen::Index values);
 ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eigen::Index>& curves,
                              double size);
 
+// The same for residuals u = scale T z of a fit with the correlation `removed` > 0: z (m) before
+// that operation, J (m, k) its columns. rho is not tested for significance.
+ResidualNoise innovation_noise(const VecX& z, const MatX& J,
+                               const std::vector<Eigen::Index>& curves, double removed,
+                               double scale);
+
+// A_i - rho A_(i-1) within a curve, sqrt(1 - rho^2) A_i at its beginning; and back
+MatX innovations(const MatX& A, const std::vector<Eigen::Index>& curves, double rho);
+VecX from_innovations(const VecX& u, const std::vector<Eigen::Index>& curves, double rho);
+
+// A correlation over more than the longest curve is the same as a shift of that curve: 1 - 1/n.
+double largest_correlation(const std::vector<Eigen::Index>& curves);
+// the one of largest likelihood for values z, at most the largest
+double most_likely_correlation(const VecX& z, const std::vector<Eigen::Index>& curves);
+
 // the same with noise believed in: where the residuals show less than `least`, the rest is white
 ResidualNoise with_least(ResidualNoise noise, double least);
 
@@ -64,9 +85,8 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
 VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out,
                       const ResidualNoise& noise);
 
-// n ln(sum of squares) of the innovations less the ln of their volume, lowest over rho: -2 ln L of
-// the autoregression but for a constant; n ln(|r|^2/n) where rho is 0. To compare laws on the same
-// data.
-double minus_two_log_likelihood(const VecX& r, const ResidualNoise& noise);
+// n ln(sum of squares) of the innovations less the ln of their volume: -2 ln L of the
+// autoregression at the best deviation, but for a constant; n ln(|r|^2/n) where rho is 0.
+double minus_two_log_likelihood(const VecX& r, const std::vector<Eigen::Index>& curves, double rho);
 
 }  // namespace langer

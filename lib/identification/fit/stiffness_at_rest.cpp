@@ -44,8 +44,11 @@ bool raise(FitProblem& problem, const VecX& p, Eigen::Index i, double least) {
 // the largest modulus at rest that the tests allow, by number i, others following
 double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index i, double least,
                   double noise) {
-  const LeastSquares q = least_squares_problem(problem);
+  const LeastSquares q = likelihood_problem(problem, fit);
   const VecX& p = fit.best.p;
+  // in units of the residuals of q, which noise that is not white leaves with another size
+  const double size = fit.residual.norm();
+  if (size > 0) noise *= fit.best.r.norm() / size;
   const double per = effect(problem, p, i), mu = shear_modulus(fit.material);
   if (!(std::abs(per) > 1e-9)) return inf;
   const auto value = [&](double more) {
@@ -89,7 +92,7 @@ double residual_noise(const FitProblem& problem, const FitResult& fit, double pa
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
   const auto m = fit.best.r.size(), n = fit.best.p.size();
   return std::max(part * largest,
-                  m > n ? std::sqrt(2 * fit.best.cost / static_cast<double>(m - n)) : 0);
+                  m > n ? fit.residual.norm() / std::sqrt(static_cast<double>(m - n)) : 0);
 }
 
 double least_shear_modulus(const FitProblem& problem, double noise) {
@@ -116,6 +119,7 @@ std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& f
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     if (!is_modulus_of_the_matrix(problem, i)) continue;
     FitProblem one = problem;
+    one.noise = fit.noise_model.kind;  // likelihoods of one kind of noise compare
     for (std::size_t k = 0; k < one.free.size(); ++k)
       one.free[k].start = fit.best.p[static_cast<Eigen::Index>(k)];
     VecX p = fit.best.p;

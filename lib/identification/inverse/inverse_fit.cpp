@@ -93,6 +93,7 @@ FitResult InverseFit::search() {
   for (std::size_t i = 0; i < problem_.free.size(); ++i)
     problem_.free[i].start = asked.free[i].start;
   if (found.best.converged) return found;
+  if (std::isfinite(found.best.cost)) reached_ = found;
   const std::string& why = scenes_->last_failure();
   throw Failure(
       Exit::not_converged,
@@ -105,16 +106,25 @@ FitResult InverseFit::search() {
           "other start values or narrower bounds; shorter increments where scenes have no equilibrium"});
 }
 
-std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord& record) {
-  record.curves = scenes_->fitted(fit.further);
-  for (std::size_t i = 0; i < record.curves.size(); ++i) {
+std::vector<FittedCurve> InverseFit::curves(const FitResult& fit) const {
+  std::vector<FittedCurve> curves = scenes_->fitted(fit.further);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitQuality& q = fit.of_test[problem_.tests.size() + i];
-    record.curves[i].r2 = q.r2, record.curves[i].mean_error_percent = q.mean_error_percent,
-    record.curves[i].max_error_percent = q.max_error_percent;
+    curves[i].r2 = q.r2;
+    curves[i].mean_error_percent = q.mean_error_percent;
+    curves[i].max_error_percent = q.max_error_percent;
   }
+  return curves;
+}
+
+std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord& record) {
+  record.curves = curves(fit);
+  std::vector<std::string> lines = scenes_->extrapolations(fit.best.p);
   VecX coarse;
-  if (!draft_ || !draft_->model(fit.best.p, coarse))
-    return {"what the cells make of the forces is not estimated"};
+  if (!draft_ || !draft_->model(fit.best.p, coarse)) {
+    lines.push_back("what the cells make of the forces is not estimated");
+    return lines;
+  }
   // values of second order in the length of the cells
   const VecX beyond = (fit.further - coarse) / (draft_factor * draft_factor - 1);
   Eigen::Index at = 0;
@@ -138,7 +148,8 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
     words += fmt::format("{}{} by {:.2g}{}", words.empty() ? "" : ", ", p.name,
                          change[static_cast<Eigen::Index>(k)], p.unit == "-" ? "" : " " + p.unit);
   }
-  return {"without the error of the cells the parameters would change, about: " + words};
+  lines.push_back("without the error of the cells the parameters would change, about: " + words);
+  return lines;
 }
 
 std::vector<std::string> InverseFit::cost() const {

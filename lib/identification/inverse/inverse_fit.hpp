@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,13 @@ class InverseFit {
   // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code
   // where one has come.
   FitResult search();
+  // what a search without an optimum came to, where it has a model
+  const std::optional<FitResult>& reached() const { return reached_; }
   // the measured and found curves with the errors that their cells make, and what these do to the
   // parameters, in words
   std::vector<std::string> add_curves(const FitResult& fit, FitRecord& record);
-  std::vector<std::string> cost() const;  // of what was solved, in words
+  std::vector<FittedCurve> curves(const FitResult& fit) const;  // with their errors
+  std::vector<std::string> cost() const;                        // of what was solved, in words
   int runs() const { return scenes_->runs() + (draft_ ? draft_->runs() : 0); }
   void done() { cache_->remove(); }
 
@@ -39,6 +43,7 @@ class InverseFit {
   FitProblem& problem_;
   std::shared_ptr<RunCache> cache_;
   std::shared_ptr<SceneTests> scenes_, draft_;
+  std::optional<FitResult> reached_;
 };
 
 // parameter,true,found,standard_error,lower_95,upper_95; empty cells where there is nothing

@@ -233,6 +233,30 @@ void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, Mat
     }
 }
 
+std::vector<std::string> SceneTests::extrapolations(const VecX& p) const {
+  std::vector<std::string> lines;
+  for (const SceneTest& test : tests_) {
+    const double touch = measured_by(test, SceneNumber::Of::touch_offset, p);
+    const double force = measured_by(test, SceneNumber::Of::force_offset, p);
+    const double compliance = measured_by(test, SceneNumber::Of::compliance, p);
+    double farthest = 1;
+    for (std::size_t row = 0; row < test.s.size(); ++row) {
+      double s = test.s[row] - touch;
+      if (compliance != 0)
+        s -= compliance * (test.measured[test.force + static_cast<Eigen::Index>(row)] - force);
+      std::size_t piece = test.stretch[row];
+      const auto t = test.over.find(s, piece, beyond_path);
+      if (t) farthest = std::max(farthest, *t);
+    }
+    if (farthest > 1 + 1e-6)
+      lines.push_back(fmt::format(
+          "{} was read up to {:.2g} % beyond the end of the path of {}, which is extrapolated: a longer motion "
+          "there is safer",
+          test.name, 100 * (farthest - 1), config_.data[test.data].solve.path));
+  }
+  return lines;
+}
+
 std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
   std::vector<FittedCurve> all;
   for (std::size_t i = 0; i < tests_.size(); ++i) {

@@ -49,6 +49,8 @@ class SceneTests : public FurtherTests {
   const std::string& last_failure() const {
     return failure_;
   }  // why the scene of a trial set has no end
+  // of tests whose values were read beyond the end of a path, at the offsets of p
+  std::vector<std::string> extrapolations(const VecX& p) const;
   std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
   const std::vector<SceneTest>& tests() const { return tests_; }
   std::size_t scenes() const { return forward_.size(); }

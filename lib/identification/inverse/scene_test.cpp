@@ -334,6 +334,27 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
   return test;
 }
 
+namespace {
+
+// weights of the derivative of the polynomial through values at `nodes`, at one of them
+VecX slope_weights(const std::vector<double>& nodes, std::size_t at) {
+  VecX weights = VecX::Zero(static_cast<Eigen::Index>(nodes.size()));
+  double own = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i == at) continue;
+    double weight = 1 / (nodes[i] - nodes[at]);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (k != i && k != at) weight *= (nodes[at] - nodes[k]) / (nodes[i] - nodes[k]);
+    }
+    weights[static_cast<Eigen::Index>(i)] = weight;
+    own += 1 / (nodes[at] - nodes[i]);
+  }
+  weights[static_cast<Eigen::Index>(at)] = own;
+  return weights;
+}
+
+}  // namespace
+
 PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kinks, double at) {
   PathPlace found;
   const auto n = static_cast<Eigen::Index>(t.size());
@@ -343,33 +364,55 @@ PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kink
   if (at <= 0) return found;  // at rest
   double begin = 0, end = 1;
   for (double kink : kinks) {
-    if (kink <= at - 1e-9) begin = std::max(begin, kink);
+    // behind the end of the path its last piece continues
+    if (kink <= at - 1e-9 && kink < 1 - 1e-9) begin = std::max(begin, kink);
     if (kink >= at - 1e-9) end = std::min(end, kink);
   }
   Eigen::Index first = -1, last = n - 1;  // of the states between those kinks, both included
   while (first + 1 < n && time(first) < begin - 1e-9) ++first;
   while (last > 0 && time(last - 1) >= end - 1e-9) --last;
   const double longest = n > 0 ? time(last) - time(last - 1) : 0;
-  if (n == 0 || at > time(last) + 0.5 * longest) {
+  // Trial offsets may lead a little beyond the end: the last piece continues for 1.5 increments.
+  if (n == 0 || at > time(last) + 1.5 * longest) {
     found.exists = false;
     return found;
   }
   Eigen::Index below = first;
   while (below + 1 < last && time(below + 1) <= at) ++below;
-  const Eigen::Index points = std::min<Eigen::Index>(4, last - first + 1);
-  const Eigen::Index from = std::clamp(below - 1, first, last - points + 1);
-  for (Eigen::Index i = from; i < from + points; ++i) {
-    double weight = 1, rate = 0;
-    for (Eigen::Index k = from; k < from + points; ++k)
-      if (k != i) weight *= (at - time(k)) / (time(i) - time(k));
-    for (Eigen::Index m = from; m < from + points; ++m) {
-      if (m == i) continue;
-      double product = 1 / (time(i) - time(m));
-      for (Eigen::Index k = from; k < from + points; ++k)
-        if (k != i && k != m) product *= (at - time(k)) / (time(i) - time(k));
-      rate += product;
-    }
-    if (i >= 0) found.value.push_back({i, weight}), found.rate.push_back({i, rate});
+  if (first == last) {
+    if (last >= 0) found.value.push_back({last, 1});
+    if (last >= 0) found.rate.push_back({last, 0});
+    return found;
+  }
+
+  // Hermite's cubic between two states, with slopes of the polynomial through the five states
+  // nearest to each. Its slope has no jump at a state: a search for an offset, which moves all
+  // readings past the states at once, would end there.
+  const Eigen::Index count = last - first + 1;
+  VecX value = VecX::Zero(count);
+  VecX rate = VecX::Zero(count);
+  const double h = time(below + 1) - time(below);
+  const double x = (at - time(below)) / h;
+  value[below - first] = 1 - x * x * (3 - 2 * x);
+  value[below + 1 - first] = x * x * (3 - 2 * x);
+  rate[below - first] = -6 * x * (1 - x) / h;
+  rate[below + 1 - first] = 6 * x * (1 - x) / h;
+  const auto add_slope = [&](Eigen::Index node, double of_value, double of_rate) {
+    const Eigen::Index points = std::min<Eigen::Index>(5, count);
+    const Eigen::Index from = std::clamp(node - 2, first, last - points + 1);
+    std::vector<double> nodes;
+    for (Eigen::Index k = 0; k < points; ++k) nodes.push_back(time(from + k));
+    const VecX slope = slope_weights(nodes, static_cast<std::size_t>(node - from));
+    value.segment(from - first, points) += of_value * slope;
+    rate.segment(from - first, points) += of_rate * slope;
+  };
+  add_slope(below, h * x * (1 - x) * (1 - x), 1 - x * (4 - 3 * x));
+  add_slope(below + 1, -h * x * x * (1 - x), x * (3 * x - 2));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index state = first + k;
+    if (state < 0 || (value[k] == 0 && rate[k] == 0)) continue;
+    found.value.push_back({state, value[k]});
+    found.rate.push_back({state, rate[k]});
   }
   return found;
 }

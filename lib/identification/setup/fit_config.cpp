@@ -279,6 +279,15 @@ void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all)
   if (config.dilatation == Dilatation::compressible)
     all.push_back({"dilatation", "compressible, beside scenes", "incompressible",
                    "scenes count the volume term anyway"});
+  if (config.noise_model != NoiseKind::automatic && config.noise_model != NoiseKind::white)
+    all.push_back(
+        {"noise",
+         std::string("found ") + names(config.noise_model)[static_cast<int>(config.noise_model)] +
+             " in a fit with scenes",
+         "auto or white", "the noise of scenes is their standard_deviation"});
+  if (config.leave_one_out)
+    all.push_back({"leave_one_out", "true, in a fit with scenes", "false",
+                   "a fit to some of the tests alone needs a config of its own"});
   for (std::size_t i = 0; i < config.data.size(); ++i) {
     const FitData& data = config.data[i];
     if (!data.is_scene() && data.weight)
@@ -415,6 +424,8 @@ double greatest_secant(const std::vector<Test>& tests) {
 FitProblem fit_problem(const FitConfig& config) {
   FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation,
                      ties_of(config)};
+  problem.noise = config.noise_model;
+  if (config.has_scenes()) problem.noise = NoiseKind::white;
   if (config.bounds == Bounds::custom) return problem;
   const double secant = 3 * greatest_secant(problem.tests);
   Material law = config.law;

@@ -266,6 +266,8 @@ struct FitConfig {
   std::vector<FitTie> ties;
   Bounds bounds = Bounds::custom;
   Dilatation dilatation = Dilatation::incompressible;
+  NoiseKind noise_model = NoiseKind::automatic;
+  bool leave_one_out = false;
   std::optional<int> starts;
   int seed = 1;
   int jobs = 1;
@@ -285,6 +287,11 @@ struct FitConfig {
       "modulus at rest that the tests can tell from 0 (docs/identification.md)");
     v(&FitConfig::dilatation, "dilatation", unit::none,
       "state of the specimen: the volume term left out (incompressible) or counted (uniaxial tests only)");
+    v(&FitConfig::noise_model, "noise", unit::none,
+      "of the measured stresses, under which the parameters have the largest likelihood: white (least squares), proportional to the "
+      "stress, autoregressive along a curve, or both; auto: the one of lowest AICc, with scenes white");
+    v(&FitConfig::leave_one_out, "leave_one_out", unit::none,
+      "predict each test from a fit to the others, and state the error");
     v(&FitConfig::starts, "starts", unit::none,
       "searches: one from the start values, the others from random places in the box; none: 20, with scenes 1",
       between(1, 100000));

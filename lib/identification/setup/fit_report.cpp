@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "identification/fit/stiffness_at_rest.hpp"
+#include "identification/statistics/intervals.hpp"
 #include "identification/statistics/within_bounds.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "mechanics/material/ellipticity.hpp"
@@ -27,6 +28,43 @@ void set_intervals(const FitResult& fit, FitRecord& record) {
     const double half = p.factor * factors[k] * std::sqrt(white(k, k));
     if (p.standard_error > 0 && std::isfinite(half)) p.factor = half / p.standard_error;
   }
+}
+
+// Intervals of tests where the model is not straight over those to first order, and none outside of
+// the box.
+void set_nonlinear(const FitProblem& problem, const FitResult& fit, FitRecord& record) {
+  std::vector<Interval> first;
+  for (const FittedParameter& p : record.parameters) {
+    const auto [low, high] = interval_95(p);
+    first.push_back({low, high});
+  }
+  const std::vector<Interval> intervals = intervals_95(problem, fit, first);
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const Interval& one = intervals[i];
+    const bool same = one.low == first[i].low && one.high == first[i].high;
+    if (same || std::isnan(one.low) || std::isnan(one.high)) continue;
+    record.parameters[i].low = one.low;
+    record.parameters[i].high = one.high;
+  }
+}
+
+// what the noise of the tests is like, and what other kinds of it would make of them
+NoiseRecord noise_record(const FitProblem& problem, const FitResult& fit) {
+  const auto word = [](NoiseKind kind) {
+    return std::string(names(kind)[static_cast<std::size_t>(kind)]);
+  };
+  NoiseRecord record;
+  const NoiseModel& noise = fit.noise_model;
+  record.model = word(noise.kind);
+  record.correlation = noise.rho;
+  record.share = noise.share;
+  record.limit = largest_correlation(curve_sizes(problem));
+  record.at_limit = std::max(noise.rho, fit.noise.rho) >= record.limit * (1 - 1e-6);
+  record.share_at_limit = noise.share == largest_share;
+  record.minus_two_log_likelihood = minus_two_log_likelihood(fit.best.r);
+  for (const NoiseCandidate& one : fit.noise_candidates)
+    record.aicc.push_back({word(one.noise.kind), one.aicc});
+  return record;
 }
 
 // Beside a bound that a parameter rests on: what is on it keeps no standard error, the others get
@@ -62,7 +100,11 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   if (fit.columns.size() > 0) set_intervals(fit, record);
   record.covariance = fit.covariance;
   if (const auto bounded = within_bounds(problem, fit)) set_bounded(*bounded, record);
-  record.cost = fit.best.cost;
+  if (fit.residual.size() > 0) {
+    set_nonlinear(problem, fit, record);
+    record.noise = noise_record(problem, fit);
+  }
+  record.cost = 0.5 * fit.residual.squaredNorm();
   record.kkt_residual = fit.best.kkt;
   record.mean_error_percent = fit.quality.mean_error_percent,
   record.max_error_percent = fit.quality.max_error_percent;
@@ -178,6 +220,36 @@ std::string in_words(const FittedCurve& c) {
 }
 }  // namespace
 
+namespace {
+
+std::size_t values_of(const FitRecord& record) {
+  std::size_t values = 0;
+  for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
+  for (const FittedCurve& c : record.curves) values += c.measured.size();
+  return values;
+}
+
+std::string in_words(const NoiseRecord& noise) {
+  std::string words = "noise: " + noise.model;
+  if (noise.correlation > 0) {
+    words += fmt::format(", correlation {:.4g}", noise.correlation);
+    if (noise.at_limit) words += " (the limit)";
+  }
+  if (noise.share > 0) {
+    words += fmt::format(", {:.3g} of the variance in proportion to the stress", noise.share);
+    if (noise.share_at_limit) words += " (the limit)";
+  }
+  if (noise.aicc.size() < 2) return words;
+  std::string compared;
+  for (const auto& [kind, aicc] : noise.aicc) {
+    if (!compared.empty()) compared += ", ";
+    compared += fmt::format("{} {:.6g}", kind, aicc);
+  }
+  return words + "; chosen by AICc: " + compared;
+}
+
+}  // namespace
+
 std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
   const bool held = std::any_of(record.parameters.begin(), record.parameters.end(), at_symmetry);
@@ -189,6 +261,10 @@ std::vector<std::string> fit_results(const FitRecord& record) {
         on_bound ? std::isnan(p.low)
                        ? "on its bound"
                        : fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high)
+        : std::isnan(p.standard_error) && p.unit == unit::deg && !std::isnan(p.low)
+            ? fmt::format(
+                  "at an angle of symmetry, or not determined; 95 % interval {:.4g} to {:.4g}",
+                  p.low, p.high)
         : std::isnan(p.standard_error) && p.unit == unit::deg
             ? "at an angle of symmetry, or not determined: see its profile"
         : std::isnan(p.standard_error)
@@ -210,10 +286,15 @@ std::vector<std::string> fit_results(const FitRecord& record) {
   for (const FittedCurve& c : record.curves) points += c.x.size();
   const std::string aicc =
       std::isnan(record.aicc)
-          ? fmt::format("no AICc (the points count as {:.0f}, too few for {} parameters)",
-                        record.effective_values, record.parameters.size())
+          ? fmt::format("no AICc ({} values are too few for {} parameters and their noise)",
+                        values_of(record), record.parameters.size())
           : fmt::format("AICc {:.6g}", record.aicc);
   lines.push_back(fmt::format("R2 {:.6f}, {}, BIC {:.6g}", record.r2, aicc, record.bic));
+  if (!record.noise.aicc.empty()) lines.push_back(in_words(record.noise));
+  if (std::isfinite(record.left_out_error_percent))
+    lines.push_back(fmt::format(
+        "each test predicted from the others: error {:.3g} % of its largest stress (root mean square)",
+        record.left_out_error_percent));
   lines.push_back(fmt::format(
       "mean error {:.3g} %, largest {:.3g} % of the largest {}; KKT residual {:.1e}; {} points, {} starts",
       record.mean_error_percent, record.max_error_percent,
@@ -242,13 +323,17 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
           "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
           hgo->c1));
   if (record.residual_correlation > 0) {
-    std::size_t values = 0;
-    for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
-    for (const FittedCurve& c : record.curves) values += c.measured.size();
+    std::string limit;
+    if (record.noise.at_limit)
+      limit = ", the largest value that curves of this length allow: the true one may be larger";
     lines.push_back(fmt::format(
-        "residuals are correlated by {:.3f} from one value of a curve to the next: {} values count as {:.0f} in "
-        "errors, intervals and AICc; the law misses the curves, or the device drifts",
-        record.residual_correlation, values, record.effective_values));
+        "residuals are correlated by {:.3f} from one value of a curve to the next{}: {} values count as {:.0f} in "
+        "errors and intervals; the law misses the curves, or the device drifts",
+        record.residual_correlation, limit, values_of(record), record.effective_values));
+    if (record.noise.correlation > 0 && record.noise.at_limit)
+      lines.push_back(
+          "the parameters are those of largest likelihood under this correlation: they follow the slopes of the "
+          "curves more than their levels; noise: white gives least squares");
   }
   const MatX correlations = correlation(record.covariance);
   for (std::size_t i = 0; i < record.parameters.size(); ++i)

@@ -88,6 +88,29 @@ double reach_of(const CandidateChoice& choice, const Material& material,
   return reach;
 }
 
+// the stress that the material has in a test; false where there is a state without one
+bool set_stress(Test& test, const Material& material, Dilatation dilatation) {
+  VecX stress(static_cast<Eigen::Index>(test.values()));
+  if (!model_stress(material, test, dilatation, stress.data())) return false;
+  if (!stress.allFinite()) return false;
+  const auto points = static_cast<Eigen::Index>(test.points());
+  for (std::size_t i = 0; i < test.stress_x.size(); ++i)
+    test.stress_x[i] = stress[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < test.stress_z.size(); ++i)
+    test.stress_z[i] = stress[points + static_cast<Eigen::Index>(i)];
+  return true;
+}
+
+// Noise that is believed in, at least: `least` is the deviation of a weighted value. Where noise is
+// not white all of it grows alike.
+ResidualNoise believed_noise(const FitResult& fit, double least) {
+  if (fit.noise_model.is_white()) return with_least(fit.noise, least);
+  const auto freedom = static_cast<double>(fit.residual.size() - fit.best.p.size());
+  const double shown = fit.residual.norm() / std::sqrt(std::max(freedom, 1.));
+  if (!(shown > 0)) return with_least(fit.noise, least);
+  return with_least(fit.noise, fit.noise.total() * std::max(1., least / shown));
+}
+
 // Correlated residuals tell less than as many independent ones. Old tests and new ones alike count
 // with the white noise that would leave the worst known parameter the error that it has.
 std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit,
@@ -118,17 +141,20 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     FitProblem more = problem;
     more.further.reset();
     more.tests = {test_like(choice, problem.tests, reach)};
-    const LeastSquares q = least_squares_problem(more);
-    VecX stress;
-    MatX J_all;
     // no test where the law has no state
-    if (!q.residual(fit.best.p, stress) || !stress.allFinite() || !jacobian(q, fit.best.p, J_all))
-      continue;
+    if (!set_stress(more.tests[0], fit.material, problem.dilatation)) continue;
+    FitResult same_noise = fit;
+    same_noise.residual = VecX::Zero(static_cast<Eigen::Index>(more.tests[0].values()));
+    MatX J_all;
+    if (!jacobian(likelihood_problem(more, same_noise), fit.best.p, J_all)) continue;
+    // residuals of a likelihood have a size of their own in each set of tests
+    const double units = standardizer(more, fit.noise_model).normalisation(same_noise.residual) /
+                         standardizer(problem, fit.noise_model).normalisation(fit.residual);
     const bool shear = kind_of(choice) == TestKind::simple_shear;
     candidates.push_back(
         {fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)),
                      choice.fibre_angle, shear ? "shear" : "stretch", shear ? reach : 1 + reach),
-         J_all(Eigen::all, free), noise});
+         J_all(Eigen::all, free), noise * units});
   }
   std::vector<AdviceRecord> records;
   for (const Advice& a : advise(known, size, candidates)) {
@@ -160,7 +186,7 @@ LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
                                const StudyConfig& config, const ProgressOf& progress,
                                const std::vector<Candidate>& scenes) {
-  const LeastSquares q = least_squares_problem(problem);
+  const LeastSquares q = likelihood_problem(problem, fit);
   const auto say = [&](const char* what) {
     return progress ? progress(what) : std::function<void(double)>();
   };
@@ -169,7 +195,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
   const ResidualNoise noise =
-      problem.further ? fit.noise : with_least(fit.noise, config.noise * largest);
+      problem.further ? fit.noise : believed_noise(fit, config.noise * largest);
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
@@ -190,7 +216,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
     ProfileOptions options;
     options.factor = factors, options.threads = config.threads, options.progress = say("profiles");
     for (const Profile& one :
-         profiles([&] { return least_squares_problem(problem); }, p, s.error, s.noise, options))
+         profiles([&] { return likelihood_problem(problem, fit); }, p, s.error, s.noise, options))
       record.profiles.push_back(
           {one.value, one.rise, one.low, one.high, one.low_open, one.high_open});
   }
@@ -202,7 +228,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
     options.progress = say("bootstrap");
     if (noise.rho > 0) options.spread = growth / options.growth;
     const auto maker = [&] {
-      return problem.further ? linearised(q, fit.best) : least_squares_problem(problem);
+      return problem.further ? linearised(q, fit.best) : likelihood_problem(problem, fit);
     };
     const Bootstrap b = bootstrap(maker, p, noise, options);
     record.linearised = problem.further != nullptr;

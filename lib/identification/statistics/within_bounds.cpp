@@ -92,7 +92,7 @@ std::optional<WithinBounds> within_bounds(const FitProblem& problem, const FitRe
   const LeastSquaresResult& best = fit.best;
   const auto n = best.p.size();
   if (fit.columns.size() == 0 || !(fit.noise.total() > 0)) return {};
-  const LeastSquares q = least_squares_problem(problem);
+  const LeastSquares q = likelihood_problem(problem, fit);
   bool resting = false;
   std::vector<Eigen::Index> in;
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -53,6 +53,33 @@ StiffnessAtRest read_at_rest(const h5::Group& group) {
           value("error_before"), value("error_after")};
 }
 
+void write_noise(const h5::Group& group, const NoiseRecord& noise) {
+  group.attribute("model", noise.model);
+  group.write_scalar("correlation", noise.correlation, "-");
+  group.write_scalar("share", noise.share, "-");
+  group.write_scalar("largest_correlation", noise.limit, "-");
+  group.write_scalar("minus_two_log_likelihood", noise.minus_two_log_likelihood, "-");
+  for (const auto& [kind, aicc] : noise.aicc) group.write_scalar("aicc_" + kind, aicc, "-");
+}
+
+NoiseRecord read_noise(const h5::Group& group) {
+  check_units(group, {{"correlation", "-"},
+                      {"share", "-"},
+                      {"largest_correlation", "-"},
+                      {"minus_two_log_likelihood", "-"}});
+  NoiseRecord noise;
+  noise.model = group.text_attribute("model");
+  noise.correlation = group.read_scalar("correlation");
+  noise.share = group.read_scalar("share");
+  noise.limit = group.read_scalar("largest_correlation");
+  noise.minus_two_log_likelihood = group.read_scalar("minus_two_log_likelihood");
+  for (const char* kind : {"white", "proportional", "autoregressive", "both"}) {
+    const std::string name = std::string("aicc_") + kind;
+    if (group.has(name)) noise.aicc.push_back({kind, group.read_scalar(name)});
+  }
+  return noise;
+}
+
 void write_parameters(const h5::Group& group, const std::vector<FittedParameter>& fitted) {
   const h5::Group parameters = group.make_group("parameters");
   std::string order;
@@ -172,6 +199,12 @@ std::vector<Summary> summary_of(const FitRecord& fit) {
   summary.push_back({"r2", fit.r2, "-"});
   summary.push_back({"aicc", fit.aicc, "-"});
   summary.push_back({"bic", fit.bic, "-"});
+  if (fit.noise.model != "white") {
+    summary.push_back({"noise_correlation", fit.noise.correlation, "-"});
+    summary.push_back({"noise_share", fit.noise.share, "-"});
+  }
+  if (std::isfinite(fit.left_out_error_percent))
+    summary.push_back({"left_out_error", fit.left_out_error_percent, "percent"});
   summary.push_back({"cost", fit.cost, "-"});
   summary.push_back({"kkt_residual", fit.kkt_residual, "-"});
   return summary;
@@ -197,6 +230,9 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   group.write_scalar("bic", fit.bic);
   group.write_scalar("residual_correlation", fit.residual_correlation, "-");
   group.write_scalar("effective_values", fit.effective_values, "-");
+  write_noise(group.make_group("noise"), fit.noise);
+  if (std::isfinite(fit.left_out_error_percent))
+    group.write_scalar("left_out_error", fit.left_out_error_percent, "percent");
   std::string ties;
   for (const Tie& tie : fit.ties)
     ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
@@ -318,6 +354,8 @@ FitRecord read_fit(const h5::Group& root) {
   if (group.has("residual_correlation"))
     fit.residual_correlation = group.read_scalar("residual_correlation");
   if (group.has("effective_values")) fit.effective_values = group.read_scalar("effective_values");
+  if (group.has("noise")) fit.noise = read_noise(group.group("noise"));
+  if (group.has("left_out_error")) fit.left_out_error_percent = group.read_scalar("left_out_error");
   if (group.has_attribute("ties")) fit.ties = read_ties(group.text_attribute("ties"));
   fit.study = read_study(root);
   return fit;

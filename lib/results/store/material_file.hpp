@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/tensor/types.hpp"
@@ -56,6 +57,18 @@ struct FittedCurve {
                                                  // estimated
 };
 
+// The noise of the tests under which the parameters have the largest likelihood
+// (fit/noise_model.hpp).
+struct NoiseRecord {
+  std::string model = "white";  // white, proportional, autoregressive, both
+  double correlation = 0;       // from one value of a curve to the next
+  double share = 0;             // of the variance at the mean stress: what grows with the stress
+  double limit = 0;             // largest correlation that the lengths of the curves allow
+  bool at_limit = false, share_at_limit = false;
+  double minus_two_log_likelihood = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::pair<std::string, double>> aicc = {};  // of each kind that was compared
+};
+
 // How the parameters were found. p parameters, n points of the curve, k starts.
 struct FitRecord {
   std::vector<FittedParameter> parameters;
@@ -73,6 +86,10 @@ struct FitRecord {
   // correlation of the residuals from value to value, and how many independent values they count
   // as; 0 in files without it
   double residual_correlation = 0, effective_values = 0;
+  NoiseRecord noise;
+  // root mean square error of tests that are predicted from the others, in percent of each one's
+  // largest stress; NaN where it was not asked for
+  double left_out_error_percent = std::numeric_limits<double>::quiet_NaN();
   std::vector<Tie> ties;  // numbers of the law that follow others
   StudyRecord study;      // read back: fitted range, verdict and safe radius
   MatX sets;  // (n, p) read back: sets of parameters of the study's bootstrap; empty without one
