@@ -188,7 +188,7 @@ TEST_CASE("the kind of noise that made the data is found, and exact data have no
 TEST_CASE("a nested law is never likelier than the one that contains it") {
   // random biaxial protocols of stiffening tissue that no law below follows, with noise of each
   // kind
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
     CAPTURE(seed);
     Random random(50, seed);
     FitProblem made = test::protocols(8 + static_cast<int>(random.below(14)));
@@ -223,8 +223,8 @@ TEST_CASE("a nested law is never likelier than the one that contains it") {
         FitProblem a = inner;
         FitProblem b = outer;
         a.noise = b.noise = kind;
-        const double of_inner = minus_two_log_likelihood(fit(a, {.starts = 3}).best.r);
-        const double of_outer = minus_two_log_likelihood(fit(b, {.starts = 3}).best.r);
+        const double of_inner = minus_two_log_likelihood(fit(a, {.starts = 2}).best.r);
+        const double of_outer = minus_two_log_likelihood(fit(b, {.starts = 2}).best.r);
         CHECK(of_outer <= of_inner + 1e-6 * std::abs(of_inner));
       }
   }

@@ -146,6 +146,13 @@ FitRecord fit() {
                    {},       0.9,
                    1,        3};
   f.tests = {biaxial, shear};
+  f.noise.model = "both";
+  f.noise.correlation = 0.9;
+  f.noise.share = 0.5;
+  f.noise.limit = 0.95;
+  f.noise.minus_two_log_likelihood = -120;
+  f.noise.aicc = {{"white", -50}, {"both", -100}};
+  f.left_out_error_percent = 3.5;
   return f;
 }
 }  // namespace
@@ -202,6 +209,13 @@ TEST_CASE("the record of a fit comes back, and its parameters stand in the summa
   CHECK(f.strain_max == 0.6);
   CHECK(f.r2 == 0.99);
   CHECK(f.bic == -90);
+  CHECK(f.noise.model == "both");
+  CHECK(f.noise.correlation == 0.9);
+  CHECK(f.noise.share == 0.5);
+  CHECK(f.noise.limit == 0.95);
+  CHECK(f.noise.minus_two_log_likelihood == -120);
+  CHECK(f.noise.aicc == fit().noise.aicc);
+  CHECK(f.left_out_error_percent == 3.5);
   REQUIRE(f.tests.size() == 2);
   CHECK(f.tests[0].name == "offx");
   CHECK(f.tests[0].fibre_angle_deg == 30);

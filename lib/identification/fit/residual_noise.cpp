@@ -198,8 +198,27 @@ double largest_correlation(const std::vector<Eigen::Index>& curves) {
 }
 
 double most_likely_correlation(const VecX& z, const std::vector<Eigen::Index>& curves) {
+  // the sum of squares of the innovations is a parabola in rho
+  double first = 0;    // z_i^2 at the beginnings of curves
+  double later = 0;    // z_i^2 of the others
+  double before = 0;   // z_(i-1)^2 of those
+  double product = 0;  // z_i z_(i-1)
+  Eigen::Index at = 0;
+  for (Eigen::Index n : curves) {
+    if (n > 0) first += z[at] * z[at];
+    for (Eigen::Index i = at + 1; i < at + n; ++i) {
+      later += z[i] * z[i];
+      before += z[i - 1] * z[i - 1];
+      product += z[i] * z[i - 1];
+    }
+    at += n;
+  }
+  const auto count = static_cast<double>(z.size());
   const auto likelihood = [&](double rho) {
-    return -minus_two_log_likelihood(z, curves, rho);
+    const double square = (1 - rho * rho) * first + later - 2 * rho * product + rho * rho * before;
+    const double least = std::numeric_limits<double>::min();
+    return static_cast<double>(curves.size()) * std::log1p(-rho * rho) -
+           count * std::log(std::max(square, least));
   };
   const double limit = largest_correlation(curves);
   const double rho = highest(likelihood, limit);

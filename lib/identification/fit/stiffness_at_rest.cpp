@@ -141,7 +141,15 @@ std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& f
   s.key = problem.free[static_cast<std::size_t>(by)].key;
   s.taken = shear_modulus(best->material);
   s.error_before = fit.quality.mean_error_percent, s.error_after = best->quality.mean_error_percent;
-  problem = std::move(raised), fit = std::move(*best);
+  // the kinds of noise that were compared before; of the one chosen, what it makes of this fit
+  std::vector<NoiseCandidate> candidates = fit.noise_candidates;
+  for (NoiseCandidate& one : candidates) {
+    const bool chosen = one.noise.kind == best->noise_model.kind;
+    if (chosen && !best->noise_candidates.empty()) one = best->noise_candidates.front();
+  }
+  problem = std::move(raised);
+  fit = std::move(*best);
+  fit.noise_candidates = std::move(candidates);
   return s;
 }
 
