@@ -8,6 +8,7 @@
 #include "identification/fit/identifiability.hpp"
 #include "identification/fit/periodic.hpp"
 #include "identification/setup/fit_report.hpp"
+#include "material/catalogue.hpp"
 #include "support/correlated.hpp"
 
 using namespace langer;
@@ -90,23 +91,23 @@ std::string range(const std::vector<Count>& counts) {
   return fmt::format("{:.0f} to {:.0f}, mean {:.1f}", low, high, all.percent());
 }
 
-enum class Error { white, correlated, proportional, gain, strain };
+enum class Noise { white, correlated, proportional, gain, strain };
 
 // the tests of a problem with errors of 1 % of the largest stress, or what compares with it
-FitProblem with_error(FitProblem q, Error error, std::uint64_t seed) {
+FitProblem with_error(FitProblem q, Noise error, std::uint64_t seed) {
   const double deviation = 0.01 * test::largest_of(q);
-  if (error == Error::white) return test::noisy(q, deviation, 0, seed);
-  if (error == Error::correlated) return test::noisy(q, deviation, 0.9, seed);
+  if (error == Noise::white) return test::noisy(q, deviation, 0, seed);
+  if (error == Noise::correlated) return test::noisy(q, deviation, 0.9, seed);
   Random random(321, seed);
   for (Test& t : q.tests) {
     const double gain = 0.05 * random.normal();
     for (auto* list : {&t.stress_x, &t.stress_z})
       for (double& s : *list) {
-        if (error == Error::proportional) s *= 1 + 0.05 * random.normal();
-        if (error == Error::gain) s = s * (1 + gain) + 0.2 * deviation * random.normal();
-        if (error == Error::strain) s += 0.2 * deviation * random.normal();
+        if (error == Noise::proportional) s *= 1 + 0.05 * random.normal();
+        if (error == Noise::gain) s = s * (1 + gain) + 0.2 * deviation * random.normal();
+        if (error == Noise::strain) s += 0.2 * deviation * random.normal();
       }
-    if (error != Error::strain) continue;
+    if (error != Noise::strain) continue;
     for (auto* list : {&t.first, &t.second})
       for (double& x : *list) x += 0.002 * random.normal();
   }
@@ -134,7 +135,7 @@ FitProblem dispersed(double c2, double kappa, double alpha, double largest_strai
   return q;
 }
 
-void measure(const std::string& name, const FitProblem& exact, Error error, int seeds,
+void measure(const std::string& name, const FitProblem& exact, Noise error, int seeds,
              int samples) {
   VecX truth(static_cast<Eigen::Index>(exact.free.size()));
   for (std::size_t i = 0; i < exact.free.size(); ++i)
@@ -164,16 +165,16 @@ void measure_coverage() {
       seeds, 100 * std::sqrt(0.95 * 0.05 / seeds));
   const FitProblem yeoh = test::protocols(20);
   constexpr int samples = 60;
-  measure("proportional 5 %, HGO-Yeoh", yeoh, Error::proportional, seeds, samples);
-  measure("autoregressive 0.9, HGO-Yeoh", yeoh, Error::correlated, seeds, samples);
-  measure("white, HGO-Yeoh", yeoh, Error::white, seeds, samples);
+  measure("proportional 5 %, HGO-Yeoh", yeoh, Noise::proportional, seeds, samples);
+  measure("autoregressive 0.9, HGO-Yeoh", yeoh, Noise::correlated, seeds, samples);
+  measure("white, HGO-Yeoh", yeoh, Noise::white, seeds, samples);
   for (double angle : {88., 85., 80., 90.})
     measure(fmt::format("white, GOH at {:g} degrees", angle), dispersed(3, 0.1, angle, 0.3),
-            Error::white, seeds, 0);
-  measure("white, GOH with kappa 0.31", dispersed(8, 0.31, 60, 0.3), Error::white, seeds, 0);
-  measure("white, HGO with weak c2", dispersed(2, 0, 30, 0.08), Error::white, seeds, 0);
-  measure("strain 0.002, HGO-Yeoh", yeoh, Error::strain, seeds, 0);
-  measure("gain 5 % of each test, HGO-Yeoh", yeoh, Error::gain, seeds, 0);
+            Noise::white, seeds, 0);
+  measure("white, GOH with kappa 0.31", dispersed(8, 0.31, 60, 0.3), Noise::white, seeds, 0);
+  measure("white, HGO with weak c2", dispersed(2, 0, 30, 0.08), Noise::white, seeds, 0);
+  measure("strain 0.002, HGO-Yeoh", yeoh, Noise::strain, seeds, 0);
+  measure("gain 5 % of each test, HGO-Yeoh", yeoh, Noise::gain, seeds, 0);
 }
 
 namespace {

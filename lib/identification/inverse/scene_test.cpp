@@ -336,20 +336,25 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
 
 namespace {
 
-// weights of the derivative of the polynomial through values at `nodes`, at one of them
-VecX slope_weights(const std::vector<double>& nodes, std::size_t at) {
-  VecX weights = VecX::Zero(static_cast<Eigen::Index>(nodes.size()));
-  double own = 0;
+// weights of values at `nodes` in the polynomial through them, and in its slope
+struct PolynomialWeights {
+  VecX value, rate;
+};
+PolynomialWeights polynomial_weights(const std::vector<double>& nodes, double at) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  PolynomialWeights weights{VecX::Ones(n), VecX::Zero(n)};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (i == at) continue;
-    double weight = 1 / (nodes[i] - nodes[at]);
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (k != i && k != at) weight *= (nodes[at] - nodes[k]) / (nodes[i] - nodes[k]);
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t m = 0; m < nodes.size(); ++m) {
+      if (m == i) continue;
+      weights.value[row] *= (at - nodes[m]) / (nodes[i] - nodes[m]);
+      double product = 1 / (nodes[i] - nodes[m]);
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        if (k != i && k != m) product *= (at - nodes[k]) / (nodes[i] - nodes[k]);
+      }
+      weights.rate[row] += product;
     }
-    weights[static_cast<Eigen::Index>(i)] = weight;
-    own += 1 / (nodes[at] - nodes[i]);
   }
-  weights[static_cast<Eigen::Index>(at)] = own;
   return weights;
 }
 
@@ -385,29 +390,40 @@ PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kink
     return found;
   }
 
-  // Hermite's cubic between two states, with slopes of the polynomial through the five states
-  // nearest to each. Its slope has no jump at a state: a search for an offset, which moves all
-  // readings past the states at once, would end there.
+  // Between two states the polynomials through the five states around each of them, the weight of
+  // one growing as that of the other falls. The slope has no jump at a state then: a search for an
+  // offset, which moves all readings past the states at once, would end there. Beyond the end the
+  // last slope goes on, bent as the last interval is.
   const Eigen::Index count = last - first + 1;
   VecX value = VecX::Zero(count);
   VecX rate = VecX::Zero(count);
-  const double h = time(below + 1) - time(below);
-  const double x = (at - time(below)) / h;
-  value[below - first] = 1 - x * x * (3 - 2 * x);
-  value[below + 1 - first] = x * x * (3 - 2 * x);
-  rate[below - first] = -6 * x * (1 - x) / h;
-  rate[below + 1 - first] = 6 * x * (1 - x) / h;
-  const auto add_slope = [&](Eigen::Index node, double of_value, double of_rate) {
-    const Eigen::Index points = std::min<Eigen::Index>(5, count);
-    const Eigen::Index from = std::clamp(node - 2, first, last - points + 1);
+  const auto around = [&](Eigen::Index node, Eigen::Index points, double x) {
+    points = std::min(points, count);
+    const Eigen::Index from = std::clamp(node - points / 2, first, last - points + 1);
     std::vector<double> nodes;
     for (Eigen::Index k = 0; k < points; ++k) nodes.push_back(time(from + k));
-    const VecX slope = slope_weights(nodes, static_cast<std::size_t>(node - from));
-    value.segment(from - first, points) += of_value * slope;
-    rate.segment(from - first, points) += of_rate * slope;
+    const PolynomialWeights weights = polynomial_weights(nodes, x);
+    PolynomialWeights all{VecX::Zero(count), VecX::Zero(count)};
+    all.value.segment(from - first, points) = weights.value;
+    all.rate.segment(from - first, points) = weights.rate;
+    return all;
   };
-  add_slope(below, h * x * (1 - x) * (1 - x), 1 - x * (4 - 3 * x));
-  add_slope(below + 1, -h * x * x * (1 - x), x * (3 * x - 2));
+  const double beyond = at - time(last);
+  if (beyond > 0) {
+    const PolynomialWeights end = around(last, 5, time(last));
+    const PolynomialWeights parabola = around(last, 3, at);
+    const PolynomialWeights parabola_end = around(last, 3, time(last));
+    const VecX bend = parabola.rate - parabola_end.rate;
+    value = end.value + beyond * end.rate + 0.5 * beyond * bend;
+    rate = end.rate + bend;
+  } else {
+    const double h = time(below + 1) - time(below);
+    const double x = (at - time(below)) / h;
+    const PolynomialWeights left = around(below, 5, at);
+    const PolynomialWeights right = around(below + 1, 5, at);
+    value = (1 - x) * left.value + x * right.value;
+    rate = (1 - x) * left.rate + x * right.rate + (right.value - left.value) / h;
+  }
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Index state = first + k;
     if (state < 0 || (value[k] == 0 && rate[k] == 0)) continue;
