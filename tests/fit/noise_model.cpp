@@ -10,6 +10,7 @@
 #include "identification/fit/left_out.hpp"
 #include "identification/setup/fit_report.hpp"
 #include "support/correlated.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -88,7 +89,7 @@ TEST_CASE(
     VecX e;
     q.residual(q.start, e);
     CHECK(minus_two_log_likelihood(by.residual(e)) ==
-          doctest::Approx(dense_likelihood(e, measured, curves, rho, share)).epsilon(1e-11));
+          near(dense_likelihood(e, measured, curves, rho, share), 1e-11));
     const LeastSquares u = standardized(q, by);
     MatX slope;
     MatX differences;
@@ -136,7 +137,7 @@ TEST_CASE("a fit ends where the likelihood is largest in parameters and noise to
       const double rho = f.noise_model.rho;
       const double share = f.noise_model.share;
       const double best = value(f.best.p, rho, share);
-      CHECK(minus_two_log_likelihood(f.best.r) == doctest::Approx(best).epsilon(1e-9));
+      CHECK(minus_two_log_likelihood(f.best.r) == near(best, 1e-9));
       // a step of a tenth of a standard error raises -2 ln L by about 0.01, to either side alike
       const MatX white =
           covariance(f.best.J, f.left_out, white_noise(f.best.r.norm() / 8, f.best.r.size()));
@@ -239,7 +240,7 @@ TEST_CASE("a correlation at its limit is stated") {
   q.noise = NoiseKind::automatic;
   const FitResult f = fit(q, {.starts = 1});
   REQUIRE(f.best.converged);
-  CHECK(f.noise_model.rho == doctest::Approx(1 - 1. / 21).epsilon(1e-9));
+  CHECK(f.noise_model.rho == near(1 - 1. / 21, 1e-9));
   const FitRecord record = fit_record(q, f);
   CHECK(record.noise.at_limit);
   std::string all;
@@ -275,7 +276,7 @@ TEST_CASE("a left-out test is predicted from the others") {
     const VecX error = xy / xx * x - measured_stress({q.tests[left]});
     expected += error.squaredNorm() / 20 / std::pow(largest_stress(q.tests[left]), 2) / 3;
   }
-  CHECK(left_out_error(q, f) == doctest::Approx(100 * std::sqrt(expected)).epsilon(1e-8));
+  CHECK(left_out_error(q, f) == near(100 * std::sqrt(expected), 1e-8));
   // of one test nothing is left
   q.tests.resize(1);
   CHECK(std::isnan(left_out_error(q, fit(q, {.starts = 1}))));

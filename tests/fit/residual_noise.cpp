@@ -85,12 +85,11 @@ TEST_CASE("covariance, variance along a direction and likelihood are those of th
     unit.deviation = 1;
     const MatX R = dense(unit, 20);
     const double of_rho = 20 * std::log(r.dot(R.inverse() * r) / 20) + std::log(R.determinant());
-    CHECK(minus_two_log_likelihood(r, noise.curves, unit.rho) ==
-          doctest::Approx(of_rho).epsilon(1e-9));
+    CHECK(minus_two_log_likelihood(r, noise.curves, unit.rho) == near(of_rho, 1e-9));
     lowest = std::min(lowest, of_rho);
   }
   const double best = most_likely_correlation(r, noise.curves);
-  CHECK(minus_two_log_likelihood(r, noise.curves, best) == doctest::Approx(lowest).epsilon(1e-4));
+  CHECK(minus_two_log_likelihood(r, noise.curves, best) == near(lowest, 1e-4));
 }
 
 TEST_CASE("noise that a fit took a correlation out of is that of the dense matrices") {
@@ -105,7 +104,7 @@ TEST_CASE("noise that a fit took a correlation out of is that of the dense matri
   MatX T = innovations(MatX::Identity(20, 20), curves, 0.7);
   const MatX V = 0.09 * T * R * T.transpose() / (1 - 0.64);
   const VecX v = normal(20, random);
-  CHECK(along(noise, v).variance == doctest::Approx(v.dot(V * v)).epsilon(1e-12));
+  CHECK(along(noise, v).variance == near(v.dot(V * v), 1e-12));
   const MatX J = normal(60, random).reshaped(20, 3);
   const MatX inverse = (J.transpose() * J).inverse();
   const MatX expected = inverse * J.transpose() * V * J * inverse;
@@ -114,7 +113,7 @@ TEST_CASE("noise that a fit took a correlation out of is that of the dense matri
   CHECK((from_innovations(T * v, curves, 0.7) - v).norm() <= 1e-12 * v.norm());
   // where both correlations agree, what is left is white
   noise.removed = 0.8;
-  CHECK(along(noise, v).variance == doctest::Approx(0.09 * v.squaredNorm()).epsilon(1e-12));
+  CHECK(along(noise, v).variance == near(0.09 * v.squaredNorm(), 1e-12));
 }
 
 TEST_CASE("correlation and size of known noise are found, whatever the parameters took from it") {

@@ -157,12 +157,12 @@ TEST_CASE("What is read of a path has no jump in its rate where a state is") {
   };
   for (double x : {0.1, 0.2, 0.4, 0.6, 0.9}) {
     CAPTURE(x);
-    CHECK(rate_at(x - 1e-7) == doctest::Approx(rate_at(x + 1e-7)).epsilon(1e-5));
-    CHECK(rate_at(x) == doctest::Approx(1.5 * std::sqrt(x)).epsilon(0.05));
+    CHECK(rate_at(x - 1e-7) == near(rate_at(x + 1e-7), 1e-5));
+    CHECK(rate_at(x) == near(1.5 * std::sqrt(x), 0.05));
   }
   // nor at the end of the path, behind which its last piece continues
   CHECK(rate_at(1.02) > rate_at(0.98));
-  CHECK(rate_at(1 + 1e-7) == doctest::Approx(rate_at(1 - 1e-7)).epsilon(1e-5));
+  CHECK(rate_at(1 + 1e-7) == near(rate_at(1 - 1e-7), 1e-5));
 }
 
 TEST_CASE("A history that comes back is followed in its order") {
@@ -391,10 +391,10 @@ TEST_CASE("An offset of touch of either sign is found where all readings fall on
 }
 
 TEST_CASE("A search that ends without an optimum keeps what it reached") {
-  // a force that has hardly grown from the first reading on: the path would have to begin long before
+  // a force that has hardly grown from the first reading on: the path would have to begin long
+  // before
   std::string text = "travel_mm,force_mN\n";
-  for (int i = 1; i <= 10; ++i)
-    text += fmt::format("{},{}\n", 0.1 * i, 50 + 2. * i);
+  for (int i = 1; i <= 10; ++i) text += fmt::format("{},{}\n", 0.1 * i, 50 + 2. * i);
   write("force.csv", text);
   const auto loaded = read(std::string(force) + "}]\n" + law +
                            "parameters: [{key: matrix.yeoh.a1}, {key: \"data[0].touch_offset\", "
