@@ -87,10 +87,10 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
   for (int iteration = 0; iteration < 30; ++iteration) {  // Newton
     const double N[] = {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
     const double Np[] = {-(1 - q), 1 - q, q, -q};
-    Nq[] = {-(1 - p), -p, p, 1 - p};
+    const double Nq[] = {-(1 - p), -p, p, 1 - p};
     double f[2] = {-place[0], -place[1]};
-    fp[2] = {0, 0};
-    fq[2] = {0, 0};
+    double fp[2] = {0, 0};
+    double fq[2] = {0, 0};
     for (int i = 0; i < 2; ++i)
       for (int k = 0; k < 4; ++k) {
         f[i] += N[k] * corner[k][i];
