@@ -51,7 +51,7 @@ inline std::optional<Polynomial> polynomial(const Material& material) {
 inline std::string matrix_words(const Material& material) {
   std::string words;
   for (const MatrixTerm& term : material.matrix)
-    append(words, " + ", std::string(std::visit([](const auto& t) { return t.key); }, term));
+    append(words, " + ", std::visit([](const auto& t) { return std::string(t.key); }, term));
   return words;
 }
 
