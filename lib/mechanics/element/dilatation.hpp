@@ -36,7 +36,7 @@ ModalVolume<T> modal_volume(const Volume& law, int n, const T* t, const T& local
   for (int g = 0; g < (n == 1 ? 1 : n_gauss); ++g) {
     const T share = n == 1 ? T(1.0) : T(w(g) * inverse_V);
     T m[n_modes] = {T(1.0)};
-    theta = t[0];
+    T theta = t[0];
     for (int k = 1; k < n; ++k) {
       m[k] = mode(g, k);
       theta += m[k] * t[k];
