@@ -49,8 +49,8 @@ loads(FALSE ${BIN}/langer-mesh file.yaml -o again.h5 --quiet)
 run(0 ${BIN}/langer-compare-h5 mesh.h5 again.h5 0 --data)
 
 # gmsh meshes what triangles enclose, in a process of its own: this one never loads it
-file(COPY ${ROOT}/tests/support/tetrahedron.stl DESTINATION ${WORK})
-file(WRITE ${WORK}/solid.yaml "geometry: {file: {path: tetrahedron.stl, edge: 0.5}}\n")
+file(COPY ${ROOT}/tests/support/box.stl DESTINATION ${WORK})
+file(WRITE ${WORK}/solid.yaml "geometry: {file: {path: box.stl, edge: 1}}\n")
 loads(FALSE ${BIN}/langer-mesh solid.yaml -o solid.h5 --quiet)
 
 # a program alone in its folder
@@ -58,7 +58,7 @@ file(COPY ${BIN}/langer-mesh DESTINATION ${WORK}/alone/bin)
 run(0 alone/bin/langer-mesh mesh.yaml -o alone.h5 --quiet)
 run(0 alone/bin/langer-mesh file.yaml -o alone.h5 --quiet)
 run(3 alone/bin/langer-mesh solid.yaml -o alone.h5)
-expect_said("tetrahedron.stl: gmsh, which such a file needs, cannot be loaded: ")
+expect_said("box.stl: gmsh, which such a file needs, cannot be loaded: ")
 expect_said("alone/lib/langer/langer_gmsh.so: cannot open shared object file")
 expect_said("hint: install libgmsh")
 # something else in the module's place

@@ -30,8 +30,8 @@ macro(expect_runs bin)
   expect_said("made by       langer-post")
   file(WRITE ${WORK}/block.yaml "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\nexport: [msh]\n")
   file(WRITE ${WORK}/file.yaml "geometry: {file: {path: block.msh}}\n")
-  file(COPY ${ROOT}/tests/support/tetrahedron.stl DESTINATION ${WORK})
-  file(WRITE ${WORK}/solid.yaml "geometry: {file: {path: tetrahedron.stl, edge: 0.5}}\n")  # the module with gmsh is found
+  file(COPY ${ROOT}/tests/support/box.stl DESTINATION ${WORK})
+  file(WRITE ${WORK}/solid.yaml "geometry: {file: {path: box.stl, edge: 1}}\n")  # the module with gmsh is found
   run(0 ${bin}/langer-mesh block.yaml -o block.h5)
   run(0 ${bin}/langer-mesh file.yaml -o file.h5)
   run(0 ${bin}/langer-mesh solid.yaml -o solid.h5)
