@@ -33,20 +33,5 @@ env -i PATH=/usr/sbin:/usr/bin:/bin HOME=/home/user LANG=C.UTF-8 chroot --usersp
   printf "geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\nexport: [msh]\n" > block.yaml
   printf "geometry: {file: {path: block.msh}}\n" > file.yaml
   langer-mesh block.yaml -o block.h5
-  langer-mesh file.yaml -o file.h5
-  { echo solid t
-    for corners in "0 0 0,0 2 0,2 0 0" "0 0 0,2 0 0,0 0 2" "0 0 0,0 0 2,0 2 0" "2 0 0,0 2 0,0 0 2"; do
-      printf "facet normal 0 0 0\nouter loop\n"
-      echo "vertex $corners" | sed "s/,/\nvertex /g"
-      printf "endloop\nendfacet\n"
-    done
-    echo endsolid t; } > solid.stl
-  printf "geometry: {file: {path: solid.stl, edge: 0.5}}\n" > solid.yaml
-  if [ -e '"$name"'/lib/langer/langer_gmsh.so ]; then
-    langer-mesh solid.yaml -o solid.h5
-  elif langer-mesh solid.yaml -o solid.h5; then
-    exit 1
-  else
-    [ $? = 3 ]
-  fi'
+  langer-mesh file.yaml -o file.h5'
 echo "$suite: $name runs"
