@@ -142,10 +142,14 @@ expect_equal("${heads}" "u_ind_mm,force_mean_N,force_deviation_N,force_lower_95_
 file(WRITE ${folder}/sample.yaml "number: 1\n")
 run(2 ${BIN}/langer-sample sample.yaml --material open/fit/material.h5 --set number=61 -o none.h5)
 expect_said("number: 61, and open/fit/material.h5 has 60 sets")
-# A force that has hardly grown from the first reading on: the path would have to begin long before, and no optimum can be
-# reached. What was reached is kept under names of its own.
-file(WRITE ${folder}/shifted.csv "u_ind_mm,force_N
-0.1,0.052\n0.2,0.054\n0.3,0.056\n0.4,0.058\n0.5,0.06\n0.6,0.062\n0.7,0.064\n0.8,0.066\n0.9,0.068\n1.0,0.07\n")
+# A curve that begins 0.4 mm before the path does: its end is beyond that of the path, and no optimum can be reached. What
+# was reached is kept under names of its own.
+string(REPLACE "to: [0, -1, 0]" "to: [0, -1.4, 0]" deep "${small}")
+file(WRITE ${folder}/deep.yaml "${deep}")
+run(0 ${BIN}/langer-solve deep.yaml -o deep/solution.h5 --quiet)
+run(0 ${BIN}/langer-post post.yaml --solution deep/solution.h5 -o deep/curves.h5 --quiet)
+execute_process(COMMAND awk -F, "NR==1 {print \"u_ind_mm,force_N\"} NR>1 && $1>0.45 {print $1-0.4 \",\" $2}" deep/curves.csv
+  WORKING_DIRECTORY ${folder} OUTPUT_FILE ${folder}/shifted.csv COMMAND_ERROR_IS_FATAL ANY)
 file(WRITE ${folder}/shifted.yaml "data: [{kind: scene, solve: small.yaml, file: shifted.csv, name: shifted,
   columns: {u_ind: u_ind_mm, force: force_N}, standard_deviation: 1.0e-3}]
 law: {matrix: {yeoh: {a1: 0.01, a2: 0.01, a3: 0.01}}, volume: {quadratic: {d: 1.0e-3}}}

@@ -439,7 +439,9 @@ Likeliest alternate(const FitProblem& problem, const LeastSquares& q, const VecX
 // of several starts the one of largest likelihood; one without an optimum only where there is no
 // other
 void keep_likelier(Likeliest& best, Likeliest other) {
-  const bool likelier = other.minus_two_log_likelihood < best.minus_two_log_likelihood;
+  // two optima that differ by rounding, as at angles of either sign: the first stays
+  constexpr double rounding = 1e-6;
+  const bool likelier = other.minus_two_log_likelihood < best.minus_two_log_likelihood - rounding;
   const bool better = other.best.converged && (likelier || !best.best.converged);
   const bool none_converged = !other.best.converged && !best.best.converged && likelier;
   if (better || none_converged) best = std::move(other);
