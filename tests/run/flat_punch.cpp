@@ -43,8 +43,6 @@ Pressed press(const std::string& geometry, double depth, int steps) {
 }
 
 const std::string section = "{section: {of: axisymmetric, size: [6, 4], divisions: [48, 16]}}";
-const std::string block =
-    "{indented_block: {origin: [-6, 0, -6], size: [12, 4, 12], radius: 3, depth: 0.3, edge: 0.125}}";
 
 }  // namespace
 
@@ -54,16 +52,12 @@ TEST_CASE("a flat punch on a section has one force, in any number of increments"
     const Pressed reference = press(section, depth, 16);
     for (int steps : {1, 2, 3, 4, 5, 6, 8, 12}) {
       CAPTURE(steps);
-      CHECK(std::abs(press(section, depth, steps).force - reference.force) <
-            1e-6 * reference.force);
+      const Pressed pressed = press(section, depth, steps);
+      CHECK(std::abs(pressed.force - reference.force) < 1e-6 * reference.force);
+      // the surface would pass the edge
+      if (steps == 1) CHECK(pressed.cut_backs > 0);
     }
   }
-}
-
-TEST_CASE("a flat punch on a block has one force, in one increment as in four") {
-  const Pressed one = press(block, 0.3, 1), four = press(block, 0.3, 4);
-  CHECK(std::abs(one.force - four.force) < 1e-6 * four.force);
-  CHECK(one.cut_backs > 0);
 }
 
 TEST_CASE(
