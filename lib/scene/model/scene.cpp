@@ -341,6 +341,13 @@ void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes,
                                   const std::string& key, const Find& where,
                                   std::vector<Error>& errors) {
   if (rigid.control || rigid.motion.empty()) return;
+  // a start inside the body is refused as that
+  if (const auto inside = point_inside(rigid.shape)) {
+    const BoundingBox box = bounding_box(mesh.X);
+    const bool in_box =
+        (inside->array() >= box.low.array()).all() && (inside->array() <= box.high.array()).all();
+    if (in_box) return;
+  }
   std::vector<char> held(mesh.X.size(), 0);
   for (const Prescribed& p : nodes.prescribed)
     if (p.value == 0 && !p.turn) ++held[static_cast<std::size_t>(p.dof / 3)];
