@@ -227,5 +227,6 @@ TEST_CASE("J - 1 given by the caller carries the pressure of a nearly incompress
   const auto a = fibre_directions(material);
   const Vec6 with = response(material, right_cauchy_green(F), volume_change(H), a).S;
   const Vec6 without = isochoric(material, right_cauchy_green(F), a).S;
-  CHECK(mean_stress(cauchy(F, with - without)) == near(2e6 * 1e-13, 1e-12));
+  // the difference of two stresses of about 0.3 MPa, each rounded
+  CHECK(mean_stress(cauchy(F, with - without)) == near(2e6 * 1e-13, 1e-12, 1e-16));
 }

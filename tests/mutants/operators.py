@@ -234,8 +234,10 @@ class Source:
             self.pieces.append([kind, start, end, found])
 
     def write(self, target, first, refused):
-        """The file with the changes numbered from `first` on; returns them and the lines of each."""
+        """The file with the changes numbered from `first` on; returns them, the lines of each, and the
+        next number. Those that are left out keep their numbers, so that other files stay the same."""
         out, at, mutants, lines = ['#include "core/base/mutant.hpp"\n'], 0, [], {}
+        next_number = first
 
         def here():
             return "".join(out).count("\n") + 1
@@ -244,14 +246,17 @@ class Source:
         for kind, start, end, found in sorted(self.pieces, key=lambda p: p[1]):
             if start < at:
                 continue  # inside the piece before
-            kept = [(new, what, line) for new, what, line in found if (name, line, what) not in refused]
+            kept = []
+            for new, what, line in found:
+                if (name, line, what) not in refused:
+                    kept.append((new, what, line, next_number))
+                next_number += 1
             if not kept:
                 continue
             out.append(self.text[at:start])
             original = self.text[start:end]
             branches = []
-            for new, what, line in kept:
-                number = first + len(mutants)
+            for new, what, line, number in kept:
                 mutants.append(Mutant(number, f"{name}:{line}", what))
                 branches.append((number, new, (name, line, what)))
 
@@ -299,7 +304,7 @@ class Source:
             at = end
         out.append(self.text[at:])
         write_if_new(target, "".join(out).encode())
-        return mutants, lines
+        return mutants, lines, next_number
 
 
 def write_if_new(path, content):
@@ -339,10 +344,10 @@ class Tree:
 
 
 def write_all(tree, sources, refused):
-    mutants, lines = [], {}
+    mutants, lines, number = [], {}, 1
     for source in sources:
         target = tree.root / source.path.relative_to(ROOT)
-        more, where = source.write(target, len(mutants) + 1, refused)
+        more, where, number = source.write(target, number, refused)
         mutants += more
         lines[str(source.path.relative_to(ROOT))] = where
     write_if_new(tree.root / "lib/core/base/mutant.hpp", GUARD.encode())
@@ -352,7 +357,10 @@ def write_all(tree, sources, refused):
 
 def build(tree, sources, programs, jobs):
     """Builds the copy; changes that do not compile are left out, and it is built again."""
-    refused = set()
+    # remembered from an earlier build; what fits again is only tried in a new WORK
+    memory = tree.root.parent / "refused.txt"
+    refused = {tuple(line.split("\t")) for line in memory.read_text().splitlines()} if memory.exists() else set()
+    refused = {(name, int(line), what) for name, line, what in refused}
     for _ in range(12):
         mutants, lines = write_all(tree, sources, refused)
         if not (tree.build / "CMakeCache.txt").exists():
@@ -373,6 +381,7 @@ def build(tree, sources, programs, jobs):
         if not new:
             sys.exit("the copy does not compile:\n" + done.stdout[-6000:])
         refused |= new
+        memory.write_text("".join(f"{name}\t{line}\t{what}\n" for name, line, what in sorted(refused)))
         print(f"{len(new)} changes do not compile and are left out", flush=True)
     sys.exit("too many rounds")
 
