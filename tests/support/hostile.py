@@ -102,9 +102,10 @@ def link(folder, name, to="../victim.txt"):
 NODES = "".join(f"{i + 1} {i % 2} {i // 2 % 2} {i // 4}\n" for i in range(8))
 MSH = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n" + NODES + "$EndNodes\n$Elements\n1\n1 5 2 1 1 1 2 4 3 5 6 8 7\n$EndElements\n"
 FACET = "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n"
-CORNERS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
-STL = "solid s\n" + "".join(FACET.format("".join("vertex {} {} {}\n".format(*CORNERS[k]) for k in face))
-                            for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))) + "endsolid s\n"
+CUBE = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+SIDES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))  # seen from outside, counter-clockwise
+HALVES = [half for a, b, c, d in SIDES for half in ((a, b, c), (a, c, d))]
+STL = "solid s\n" + "".join(FACET.format("".join("vertex {} {} {}\n".format(*CUBE[k]) for k in half)) for half in HALVES) + "endsolid s\n"
 
 
 def mesh_row(name, file, content=None, more="", **kinds):
@@ -135,7 +136,7 @@ mesh_row("a script instead of $MeshFormat", "m.msh", "// a mesh\n" + SCRIPT)
 mesh_row("a script before $MeshFormat", "m.msh", SCRIPT + MSH)
 mesh_row("a script behind the mesh", "m.msh", MSH + SCRIPT, exits=(0, 2, 3))
 mesh_row("options beside the mesh", "m.msh", beside(MSH, SCRIPT), exits=(0, 2, 3))
-mesh_row("options beside a surface", "m.stl", beside(STL, SCRIPT), ", edge: 1", exits=(0, 2, 3))
+mesh_row("options beside a surface", "m.stl", beside(STL, SCRIPT), ", edge: 0.5", exits=(0, 2, 3))
 mesh_row("a script with the name of a surface", "m.stl", SCRIPT, ", edge: 1")
 mesh_row("a script of gmsh", "m.geo", SCRIPT + "Point(1) = {0, 0, 0};\n", ", edge: 1")
 mesh_row("a script with the name of a solid", "m.step", SCRIPT, ", edge: 1")
