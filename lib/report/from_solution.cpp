@@ -124,6 +124,10 @@ void judge_resolution(const Say& say, const std::vector<Summary>& summary) {
             100 * value("penetration_share")));
 }
 
+double smallest(const std::vector<double>& values) {
+  return values.empty() ? 1 : *std::min_element(values.begin(), values.end());
+}
+
 void judge(const Say& say, const History& history) {
   const double residual = std::abs(largest(history, "residual")),
                iterations = largest(history, "iterations");
@@ -143,8 +147,17 @@ void judge(const Say& say, const History& history) {
             "unstable equilibria from t = {:.4g}: the constrained tangent has up to {:g} negative eigenvalues",
             when(history, "negative_eigenvalues", [](double v) { return v != 0; }),
             std::abs(largest(history, "negative_eigenvalues"))));
-  else
+  else if (const auto whole = history.find("signs_of_whole_body");
+           whole == history.end() || smallest(whole->second) > 0)
     say(Level::good, "every equilibrium is stable: the constrained tangent is positive definite");
+  else if (whole->second.back() > 0)
+    say(Level::good,
+        "every equilibrium is stable in movements that keep its symmetry, and the last one in all movements "
+        "(stability: each_step checks all of them at each step)");
+  else
+    say(Level::good,
+        "every equilibrium is stable in the movements that were solved for; those out of the plane of a section, or "
+        "out of a symmetry, were not checked");
   if (history.count("unstable_volume")) {
     if (largest(history, "unstable_volume") > 0)
       say(Level::warning,

@@ -95,6 +95,7 @@ RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::stri
   const RunEnd end = along_the_path(progress);
   if (end.at == RunEnd::At::not_homogeneous) return end;
   for (const std::string& line : watch_.warnings()) voice.warn(line);
+  for (const std::string& line : watch_.notes()) voice.say("{}", line);
   if (end.path.complete)
     for (const std::string& line : watch_.contact_warnings()) voice.warn(line);
   need_the_end(end, loose);

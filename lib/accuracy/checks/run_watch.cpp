@@ -6,17 +6,37 @@
 
 namespace langer {
 
+namespace {
+
+// Movements that break the symmetry of a reduced body are checked at each step only where that is
+// asked for, or no indenter is: a body between supports buckles so, one under an indenter rarely
+// does, and its steps take few factorizations.
+bool breaking_at_each_step(const Run& run, const SolveConfig& config) {
+  return config.stability == StabilityCheck::each_step || config.on_unstable == OnUnstable::stop ||
+         run.scene.contacts.empty();
+}
+
+StabilityWatch::Reach reach_of(const Run& run, const SolveConfig& config) {
+  if (run.reduction.kind() == Reduction::Kind::section) return StabilityWatch::Reach::section;
+  const bool each_step = breaking_at_each_step(run, config) && !run.body.division();
+  if (run.reduction.kind() == Reduction::Kind::symmetry && !each_step)
+    return StabilityWatch::Reach::symmetric_until_the_end;
+  return StabilityWatch::Reach::whole_body;
+}
+
+}  // namespace
+
 RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
     : run_(run),
       when_(config.stability),
       on_unstable_(config.on_unstable),
-      stability_(std::move(tests)),
+      stability_(std::move(tests), reach_of(run, config)),
       result_(run.body) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
   if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
     StaticsOptions options;
     options.threads = config.blas_threads;
-    options.signs_from_cells = true;  // its cells deform alike
+    options.signs_from_cells = true;  // the elements of a homogeneous body deform alike
     mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);
   }
 }
@@ -32,8 +52,28 @@ void RunWatch::kept(const StepRecord& step) {
             : "";
 }
 
-std::optional<StabilityReport> RunWatch::looked(const StepRecord& record) {
-  if (!mesh_) return stability_.look(run_.body, run_.statics);
+bool RunWatch::breaking_at(bool at_end) const {
+  if (run_.body.division() || run_.statics.iterative()) return false;  // no factor that shows signs
+  if (at_end) return true;
+  return when_ == StabilityCheck::each_step || on_unstable_ == OnUnstable::stop ||
+         run_.scene.contacts.empty();
+}
+
+std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
+  if (mesh_) return report_of_point(record);
+  StabilityReport report = stability_.look(run_.body, run_.statics);
+  if (!breaking_at(at_end_of_path(record.t))) return report;
+  if (!breaking_) {
+    std::vector<Dofs> kinds = run_.reduction.symmetry_breaking_dofs();
+    if (kinds.empty()) return report;
+    breaking_.emplace(run_.body, std::move(kinds));
+  }
+  report.breaking = breaking_->signature(run_.statics);
+  return report;
+}
+
+// A homogeneous body is solved on one hexahedron, but its stability is that of the mesh.
+std::optional<StabilityReport> RunWatch::report_of_point(const StepRecord& record) {
   const std::optional<StepRecord> whole = run_.reduction.whole(record);
   if (!whole) return std::nullopt;
   mesh_->restore(state_of(*whole, run_.scene));
@@ -42,11 +82,11 @@ std::optional<StabilityReport> RunWatch::looked(const StepRecord& record) {
 
 bool RunWatch::of_part(StepRecord& record) {
   const bool at_end = at_end_of_path(record.t);
-  if (when_ != StabilityCheck::each_step && !(when_ == StabilityCheck::last && at_end)) return true;
-  const std::optional<StabilityReport> report = looked(record);
+  if (when_ == StabilityCheck::off || (when_ == StabilityCheck::last && !at_end)) return true;
+  const std::optional<StabilityReport> report = report_of(record);
   if (!report) return true;
   stability_.keep(*report);
-  if (when_ == StabilityCheck::each_step) stability_.add_to(record, *report);
+  if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
   last_said_ = in_words(*report);
   if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
@@ -67,6 +107,8 @@ std::vector<std::string> RunWatch::warnings() const {
   for (std::string& line : result_.warnings()) lines.push_back(std::move(line));
   return lines;
 }
+
+std::vector<std::string> RunWatch::notes() const { return stability_.notes(); }
 
 std::vector<std::string> RunWatch::contact_warnings() const {
   if (!contact_) return {};

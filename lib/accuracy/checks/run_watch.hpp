@@ -9,6 +9,7 @@
 #include "accuracy/checks/contact_watch.hpp"
 #include "accuracy/checks/result_watch.hpp"
 #include "accuracy/checks/stability_watch.hpp"
+#include "mechanics/solve/symmetry_breaking.hpp"
 #include "scene/run/run.hpp"
 
 namespace langer {
@@ -25,8 +26,11 @@ class RunWatch {
   // says why it is not to be kept
   std::optional<Error> of_whole(StepRecord& record, const SolveReport& report);
 
-  // of a mesh that a hexahedron stands for, where its stability is looked at; else nullptr
-  const Statics* of_mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+  // The mesh of a homogeneous body, if its stability is checked; else nullptr.
+  const Statics* of_mesh() const {
+    if (mesh_) return &*mesh_;
+    return nullptr;
+  }
 
   const std::string& unstable() const { return unstable_; }  // why the path ended
   const std::string& last_said() const {
@@ -34,19 +38,23 @@ class RunWatch {
   }  // of the last state's stability; empty where it is stable
 
   std::vector<std::string> warnings() const;
+  std::vector<std::string> notes() const;
   // at the end of the path; throws Failure(config) where a facet is entered and no force said
   std::vector<std::string> contact_warnings() const;
   std::vector<Summary> contact_summary() const;
   std::vector<Summary> stability_summary() const;
 
  private:
-  std::optional<StabilityReport> looked(
-      const StepRecord& record);  // nothing where the mesh does not balance
+  // nothing where the mesh does not balance
+  std::optional<StabilityReport> report_of(const StepRecord& record);
+  std::optional<StabilityReport> report_of_point(const StepRecord& record);
+  bool breaking_at(bool at_end) const;
 
   Run& run_;
-  std::optional<Statics> mesh_;
   StabilityCheck when_;
   OnUnstable on_unstable_;
+  std::optional<Statics> mesh_;  // of a homogeneous body, whose stability is that of its mesh
+  std::optional<SymmetryBreaking> breaking_;
   StabilityWatch stability_;
   ResultWatch result_;
   std::optional<ContactWatch> contact_;

@@ -58,13 +58,29 @@ StudyRecord study_from(const std::string& material_file) {
   return fit ? fit->study : StudyRecord{};
 }
 
+int StabilityReport::negative_eigenvalues() const {
+  int sum = 0;
+  bool singular = false;
+  for (const std::optional<Signature>* part : {&signature, &breaking}) {
+    if (!*part) continue;
+    if ((*part)->negative < 0) {
+      singular = true;
+    } else {
+      sum += (*part)->negative;
+    }
+  }
+  return singular && sum == 0 ? -1 : sum;
+}
+
 std::string in_words(const StabilityReport& r) {
   std::string words;
-  const int negative = r.signature ? r.signature->negative : 0;
+  const int negative = r.negative_eigenvalues();
   if (negative > 0)
     words = fmt::format("the constrained tangent has {} negative eigenvalue{}", negative,
                         negative > 1 ? "s" : "");
   if (negative < 0) words = "the constrained tangent is singular";
+  if (negative > 0 && r.breaking && r.breaking->negative > 0)
+    words += fmt::format(" ({} in movements that break the symmetry)", r.breaking->negative);
   if (std::isnan(r.stiffness))
     words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ",
                          r.cell, place_text(r.place));
@@ -82,11 +98,20 @@ void StabilityWatch::resume(const StepRecord& last) {
 }
 
 StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
-  const BodyState& state = statics.accepted();
+  std::optional<Signature> signature;
+  if (!signs_) signs_ = !statics.iterative();
+  if (*signs_) signature = statics.signature();
+  return look(body, statics.accepted(), statics.reactions(), !statics.contacts().empty(),
+              signature);
+}
+
+StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& state,
+                                     const VecX& reactions, bool contacts,
+                                     std::optional<Signature> signature) {
   StabilityReport report;
   report.t = state.t;
-  if (!signs_) signs_ = !statics.iterative();
-  if (*signs_) report.signature = statics.signature();
+  report.signature = signature;
+  if (!signs_) signs_ = signature.has_value();
 
   std::vector<Low> lowest;
   double volume = 0;
@@ -138,13 +163,12 @@ StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
   if (report.stiffness < 0 && report.lost == 0)
     report.lost = body.geometry(report.cell).w[0] / volume;
 
-  const VecX reactions = statics.reactions();
   for (const Prescribed& p : body.dofs().prescribed)
     report.driving_force += reactions[p.dof] * p.rate(state.t);
   const bool straight = std::all_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(),
                                     [](const auto& p) { return p.in_proportion(); });
-  if (straight && statics.contacts().empty()) {  // along a straight path; a body that slides under
-                                                 // an indenter has other reasons to resist less
+  if (straight && !contacts) {  // along a straight path; a body that slides under
+                                // an indenter has other reasons to resist less
     const double scale = std::max(std::abs(report.driving_force), std::abs(force_before_));
     report.falling = t_before_ >= 0 && report.driving_force < force_before_ - 1e-9 * scale;
   }
@@ -154,7 +178,10 @@ StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
 
 void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const {
   auto& s = record.scalars;
-  if (r.signature) s["negative_eigenvalues"] = r.signature->negative;
+  if (r.signature) {
+    s["negative_eigenvalues"] = r.negative_eigenvalues();
+    if (reach_ != Reach::whole_body) s["signs_of_whole_body"] = r.breaking ? 1 : 0;
+  }
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
@@ -183,8 +210,8 @@ std::string StabilityWatch::Spans::text() const {
 void StabilityWatch::keep(const StabilityReport& r) {
   last_ = r;
   steps_unstable_ += r.equilibrium_unstable() || r.material_unstable();
-  if (r.equilibrium_unstable())
-    most_negative_ = std::max(most_negative_, std::abs(r.signature->negative));
+  most_negative_ = std::max(most_negative_, std::abs(r.negative_eigenvalues()));
+  if (r.breaking) most_breaking_ = std::max(most_breaking_, r.breaking->negative);
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
   if (r.volume_change > volume_change_)
@@ -205,11 +232,21 @@ std::vector<std::string> StabilityWatch::warnings() const {
         "as far near {}; first at t = {:.4g}",
         percent(last_.outside), last_.farthest, place_text(last_.farthest_place),
         outside_.of[0][0]));
-  if (!equilibrium_.of.empty())
-    lines.push_back(fmt::format(
+  if (!equilibrium_.of.empty()) {
+    std::string line = fmt::format(
         "unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
         "leave these states",
-        equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : ""));
+        equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : "");
+    if (most_breaking_ > 0) {
+      line += fmt::format(
+          ". {} of them are movements that break the symmetry by which the body was reduced: symmetry: none "
+          "solves the whole body",
+          most_breaking_);
+      if (reach_ == Reach::symmetric_until_the_end)
+        line += "; checked at the end only, stability: each_step finds the first such state";
+    }
+    lines.push_back(std::move(line));
+  }
   if (!material_.of.empty() && std::isnan(last_.stiffness))
     lines.push_back(fmt::format("the law has no number at {}, at the end near {}", material_.text(),
                                 place_text(last_.place)));
@@ -232,6 +269,13 @@ std::vector<std::string> StabilityWatch::warnings() const {
         "forces as dead loads they are not",
         falling_.text()));
   return lines;
+}
+
+std::vector<std::string> StabilityWatch::notes() const {
+  if (reach_ != Reach::section || !signs_.value_or(false)) return {};
+  return {
+      "stability was checked for movements of the section only; a section does not show how the body moves out of its "
+      "plane or around its axis"};
 }
 
 std::vector<Summary> StabilityWatch::summary() const {

@@ -24,8 +24,11 @@ StudyRecord study_from(const std::string& material_file);  // nothing in a YAML 
 struct StabilityReport {
   double t = 0;
   std::optional<Signature> signature;  // none: not looked at, as the tangent is solved iteratively
-  double stiffness = 0;                // smallest, in the whole body [MPa]
-  int cell = -1;                       // where; reference position of the Gauss point [mm]
+  // of movements that break the symmetry of a reduced body (solve/symmetry_breaking.hpp); none: not
+  // looked at, or there are no such movements
+  std::optional<Signature> breaking;
+  double stiffness = 0;  // smallest, in the whole body [MPa]
+  int cell = -1;         // where; reference position of the Gauss point [mm]
   Vec3 place = Vec3::Zero();
   double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
   Vec3 volume_place = Vec3::Zero();
@@ -38,23 +41,36 @@ struct StabilityReport {
   double driving_force = 0;  // [N mm] per unit of t
   bool falling = false;      // ... less than one step before; looked at without contact only
 
-  bool equilibrium_unstable() const { return signature && signature->negative != 0; }
+  // of all movements that were looked at; -1: the tangent is singular and has no negative one
+  int negative_eigenvalues() const;
+  bool equilibrium_unstable() const { return negative_eigenvalues() != 0; }
   bool material_unstable() const { return !(stiffness >= 0); }
 };
 std::string in_words(const StabilityReport& report);  // what is unstable; empty where nothing is
 
 class StabilityWatch {
  public:
-  explicit StabilityWatch(StudyRecord study) : study_(std::move(study)) {}
+  // Which movements the signs of the tangent are of.
+  enum class Reach {
+    whole_body,
+    symmetric_until_the_end,  // those that break the symmetry are looked at in the last step only
+    section                   // within the plane of a section, or around its axis
+  };
+  explicit StabilityWatch(StudyRecord study, Reach reach = Reach::whole_body)
+      : study_(std::move(study)), reach_(reach) {}
   void resume(const StepRecord& last);
-  // the accepted state, right after accept()
+  // the accepted state, right after accept(); known: its signature, where it follows without a
+  // factorization
   StabilityReport look(const Assembler& body, Statics& statics);
+  StabilityReport look(const Assembler& body, const BodyState& state, const VecX& reactions,
+                       bool contacts, std::optional<Signature> signature);
   void add_to(StepRecord& record, const StabilityReport& report) const;
   void keep(const StabilityReport& report);  // for the warnings at the end
 
   // of the whole path: from when to when something was unstable, and how much of the body where at
   // the end
   std::vector<std::string> warnings() const;
+  std::vector<std::string> notes() const;  // what the statement leaves out
   std::vector<Summary> summary() const;
 
  private:
@@ -66,11 +82,13 @@ class StabilityWatch {
     std::string text() const;
   };
   StudyRecord study_;
+  Reach reach_;
   double force_before_ = 0, t_before_ = -1;
   StabilityReport last_;
   double volume_change_ = 0;
   Vec3 volume_place_ = Vec3::Zero();
   int most_negative_ = 0, steps_unstable_ = 0;
+  int most_breaking_ = 0;      // of them in movements that break the symmetry
   std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that
                                // all steps have the same columns
   Spans equilibrium_, material_, outside_, falling_;

@@ -34,6 +34,8 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
 void say_costs(const Voice& voice, const PathErrors& found) {
   if (found.growth == 0 || found.at_end.empty()) return;
   const ErrorEstimate& first = found.at_end.front();
+  constexpr double slow = 0.9;  // of an order below this, shorter cells are no way
+  if (first.grows || first.order < slow) return;
   std::string words = fmt::format("half the cells' part of {} takes about {:.2g} times the time",
                                   first.of.name, std::pow(2, found.growth / first.order));
   if (first.increments != 0)

@@ -27,6 +27,13 @@
 
 namespace langer {
 
+// The tangent of a body under other constraints than its own.
+struct OtherTangent {
+  Dofs dofs;
+  Pattern pattern;
+  std::vector<double> K = {};  // (nnz) [N/mm]
+};
+
 class Assembler {
  public:
   Assembler(const Mesh& mesh, std::vector<Material> materials, Directions directions,
@@ -96,6 +103,12 @@ class Assembler {
   VecX skew_pressures(const VecX& u, const VecX& du) const;
   // On the rows of prescribed unknowns, d f_int of each v; 0 elsewhere; (3 n) each.
   std::vector<VecX> prescribed_rows_times(const VecX& u, const std::vector<VecX>& v) const;
+
+  // The tangent at u, with the pressures of the tangent, under other constraints. A reduced body
+  // shows in this way how it resists movements that break its symmetry. Elements are evaluated once
+  // for all of them; nothing else of the body changes. False if an element is turned inside out.
+  OtherTangent tangent_under(Dofs dofs) const;
+  bool assemble_under(const VecX& u, std::span<OtherTangent> others) const;
 
   // Increments of a viscous body, of `seconds`. Without effect on an elastic body.
   bool viscous() const { return viscous_.present(); }

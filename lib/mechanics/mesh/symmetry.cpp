@@ -1,6 +1,7 @@
 #include "mechanics/mesh/symmetry.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -105,31 +106,55 @@ std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
   return kept_node;
 }
 
+// Sign of each element of the group for fields that change sign under the generators in `changing`,
+// one bit for each generator in their order. Element i of group_of is the product of the generators
+// whose bits i has.
+double sign_of(std::size_t element, unsigned changing) {
+  return std::popcount(static_cast<unsigned>(element) & changing) % 2 == 0 ? 1 : -1;
+}
+
+// Node n in terms of the kept node of its orbit that comes first, for fields that obey
+// u(X') = +-S u(X), minus where the element of the group changes the sign.
+Image image_of_node(const Mesh& mesh, const std::vector<Symmetry>& group,
+                    const std::vector<int>& kept_node, unsigned changing, std::size_t n,
+                    double tolerance) {
+  int master = -1;
+  int kept = 0;
+  Vec3 signs = Vec3::Ones();
+  Vec3 allowed = Vec3::Ones();
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Symmetry& g = group[i];
+    const Vec3 turned = sign_of(i, changing) * g.signs;
+    const int other = g.node[n];
+    if (other == static_cast<int>(n)) {
+      // what the node maps onto itself with a change of sign vanishes
+      for (int k = 0; k < 3; ++k) {
+        if (turned[k] < 0) allowed[k] = 0;
+      }
+    }
+    if (kept_node[other] < 0) continue;
+    if (master >= 0 && !before(mesh.X[other], mesh.X[master], tolerance)) continue;
+    master = other;
+    kept = kept_node[other];
+    signs = turned;
+  }
+  // the image of a node that other symmetries leave in place has their zeros too
+  return {kept, signs.cwiseProduct(allowed).asDiagonal()};
+}
+
 // Each node in terms of the kept node of its orbit that comes first.
 void tie_nodes(const Mesh& mesh, const std::vector<Symmetry>& group,
                const std::vector<int>& kept_node, double tolerance, Quotient& q) {
   q.node_share.assign(q.node.size(), 0);
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
-    int master = -1, orbit = 0;
-    int kept = 0;
-    Vec3 signs = Vec3::Ones(), allowed = Vec3::Ones();
-    for (const Symmetry& g : group) {
-      const int other = g.node[n];
-      if (other ==
-          static_cast<int>(n)) {  // what it maps onto itself with a change of sign vanishes
-        ++orbit;
-        for (int k = 0; k < 3; ++k)
-          if (g.signs[k] < 0) allowed[k] = 0;
-      }
-      if (kept_node[other] < 0 ||
-          (master >= 0 && !before(mesh.X[other], mesh.X[master], tolerance)))
-        continue;
-      master = other, kept = kept_node[other], signs = g.signs;
-    }
-    // the image of a node that other symmetries leave in place has their zeros too
-    q.node_image.push_back({kept, signs.cwiseProduct(allowed).asDiagonal()});
-    if (q.node[kept] == static_cast<int>(n))
-      q.node_share[kept] = static_cast<double>(group.size()) / orbit;
+    const Image image = image_of_node(mesh, group, kept_node, 0, n, tolerance);
+    q.node_image.push_back(image);
+    if (q.node[image.of] != static_cast<int>(n)) continue;
+    const auto stays = [&](const Symmetry& g) {
+      return g.node[n] == static_cast<int>(n);
+    };
+    q.node_share[image.of] = static_cast<double>(group.size()) /
+                             static_cast<double>(std::count_if(group.begin(), group.end(), stays));
   }
   for (int n : q.node) q.tie.push_back(q.node_image[n]);
 }
@@ -144,6 +169,24 @@ Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators) {
   const std::vector<int> kept_node = make_part(mesh, q);
   tie_nodes(mesh, group, kept_node, tolerance, q);
   return q;
+}
+
+std::vector<std::vector<Image>> symmetry_breaking_ties(const Mesh& mesh,
+                                                       const std::vector<Symmetry>& generators,
+                                                       const Quotient& q) {
+  const double tolerance = 1e-7 * bounding_box(mesh.X).size().norm();
+  const std::vector<Symmetry> group = group_of(mesh, generators);
+  std::vector<int> kept_node(mesh.X.size(), -1);
+  for (std::size_t i = 0; i < q.node.size(); ++i) kept_node[q.node[i]] = static_cast<int>(i);
+  std::vector<std::vector<Image>> ties;
+  for (unsigned changing = 1; changing < group.size(); ++changing) {
+    std::vector<Image>& of_kept = ties.emplace_back();
+    for (int n : q.node) {
+      of_kept.push_back(
+          image_of_node(mesh, group, kept_node, changing, static_cast<std::size_t>(n), tolerance));
+    }
+  }
+  return ties;
 }
 
 }  // namespace langer

@@ -46,4 +46,11 @@ std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& ge
 // By the group of one or two commuting symmetries.
 Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators);
 
+// The other ways in which a field can go with the symmetries: u(X') = -S u(X) under some of the
+// generators. Every movement of the whole body is a sum of the symmetric one and one of each of
+// these kinds, and a symmetric tangent does not couple them. By kind, the ties of the kept nodes.
+std::vector<std::vector<Image>> symmetry_breaking_ties(const Mesh& mesh,
+                                                       const std::vector<Symmetry>& generators,
+                                                       const Quotient& q);
+
 }  // namespace langer

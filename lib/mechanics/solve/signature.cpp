@@ -70,6 +70,31 @@ Signature signs(const MatX& M, bool zero_energy_too) {
           static_cast<int>((e.array().abs() <= small).count())};
 }
 
+// What contacts make of a tangent: less the turning of their reactions, and held directions as
+// springs so stiff that no soft direction is left in them.
+void add_contacts(const std::vector<NodeContact>& contacts, const Dofs& dofs,
+                  const Pattern& pattern, std::vector<double>& K) {
+  double stiffest = 0;
+  for (int row = 0; row < dofs.n_free(); ++row) {
+    stiffest = std::max(stiffest, std::abs(K[pattern.column_start[row]]));
+  }
+  for (int node = 0; node < dofs.n / 3; ++node) {
+    Mat3 block = -contacts[node].turning;
+    for (const Vec3& h : contacts[node].held) block += 1e4 * stiffest * h * h.transpose();
+    if (block.isZero(0)) continue;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const int row = dofs.equation[3 * node + i];
+        const int column = dofs.equation[3 * node + j];
+        if (column < 0 || row < column) continue;
+        for (int k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
+          if (pattern.row[k] == row) K[k] += block(i, j);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void Statics::need_factor_of_accepted(double within) {
@@ -147,26 +172,45 @@ Signature Statics::signature() {
       const auto used = Z.leftCols(columns);
       return signs(used.transpose() * (*S * used), factor_.kind() == Kind::supported);
     }
-  // held directions as springs so stiff that no soft direction is left in them
   need_tangent();
   std::vector<double> K = equilibrium_.K();
-  const Pattern& pattern = equilibrium_.pattern();
-  double stiffest = 0;
-  for (int row = 0; row < dofs.n_free(); ++row)
-    stiffest = std::max(stiffest, std::abs(K[pattern.column_start[row]]));
-  for (int node = 0; node < equilibrium_.mesh().n_nodes(); ++node) {
-    Mat3 block = -contacts[node].turning;
-    for (const Vec3& h : contacts[node].held) block += 1e4 * stiffest * h * h.transpose();
-    if (block.isZero(0)) continue;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const int row = dofs.equation[3 * node + i], column = dofs.equation[3 * node + j];
-        if (column < 0 || row < column) continue;
-        for (int k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
-          if (pattern.row[k] == row) K[k] += block(i, j);
-      }
-  }
+  add_contacts(contacts, dofs, equilibrium_.pattern(), K);
   return {factor_.linear().negative_pivots(K), 0};
+}
+
+Signature Statics::signature_under(std::span<OtherTangent> others,
+                                   std::vector<std::unique_ptr<LinearSolver>>& solvers) {
+  const int n_nodes = equilibrium_.mesh().n_nodes();
+  std::vector<NodeContact> contacts(static_cast<std::size_t>(n_nodes));
+  if (!contacts_.empty()) {
+    contacts = node_contacts(*this, equilibrium_.mesh().X, static_cast<std::size_t>(n_nodes));
+  }
+  {
+    const Stopwatch watch(cost_.assembly);
+    // accepted states have no cell that is turned inside out
+    equilibrium_.assemble_under(now_.u, others);
+  }
+  const Stopwatch watch(cost_.factor);
+  Signature sum;
+  bool singular = false;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    OtherTangent& other = others[i];
+    if (other.pattern.n == 0) continue;
+    add_contacts(contacts, other.dofs, other.pattern, other.K);
+    if (!solvers[i]) {
+      solvers[i] =
+          std::make_unique<LinearSolver>(other.pattern, std::vector<int>{}, options_.threads);
+    }
+    if (solvers[i]->factorize(other.K)) continue;
+    const int negative = solvers[i]->negative_pivots(other.K);
+    if (negative < 0) {
+      singular = true;
+    } else {
+      sum.negative += negative;
+    }
+  }
+  if (singular && sum.negative == 0) sum.negative = -1;
+  return sum;
 }
 
 }  // namespace langer

@@ -102,6 +102,10 @@ class Statics {
   // fiftieth of the step's movement from there; otherwise K is factorized once more. Not where
   // iterative(), which has no signs to show.
   Signature signature();
+  // The same of the accepted state for other constraints than those of the equilibrium, summed over
+  // them: one factorization each, by the solvers that are kept for the next state.
+  Signature signature_under(std::span<OtherTangent> others,
+                            std::vector<std::unique_ptr<LinearSolver>>& solvers);
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were
   // not with contact

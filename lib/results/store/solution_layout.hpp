@@ -87,6 +87,8 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
      "what is left of the contact law, over the largest reaction times motion; never negative"},
     {"negative_eigenvalues", "-",
      "of the constrained tangent; more than 0: unstable; -1: singular to the last digit"},
+    {"signs_of_whole_body", "-",
+     "1: negative_eigenvalues counts all movements of the body; 0: those that keep its symmetry, or lie in its section"},
     {"shear_stiffness_min", "MPa",
      "smallest over all Gauss points; negative where strong ellipticity is lost"},
     {"weakest_x", "mm", "place of shear_stiffness_min in the reference state"},

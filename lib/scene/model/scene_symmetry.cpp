@@ -141,6 +141,7 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
                              const std::vector<Symmetry>& generators,
                              const std::vector<std::vector<int>>& contacts) {
   quotient_ = quotient(mesh, generators);
+  breaking_ties_ = symmetry_breaking_ties(mesh, generators, quotient_);
   scene_.formulation = scene.formulation, scene_.materials = scene.materials,
   scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(quotient_.cell);
@@ -180,10 +181,24 @@ void ReducedScene::take_supports(const Scene& scene) {
   std::vector<Prescribed> prescribed;
   for (const Prescribed& p : scene.dofs.prescribed) {
     const Image& image = q.node_image[p.dof / 3];
-    if (q.node[image.of] == p.dof / 3 && image.T(p.dof % 3, p.dof % 3) != 0)
-      prescribed.push_back(p), prescribed.back().dof = 3 * image.of + p.dof % 3;
+    if (q.node[image.of] != p.dof / 3) continue;
+    const int dof = 3 * image.of + p.dof % 3;
+    held_.push_back(dof);
+    if (image.T(p.dof % 3, p.dof % 3) == 0) continue;
+    prescribed.push_back(p);
+    prescribed.back().dof = dof;
   }
   scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie, q.mesh.hanging).dofs;
+}
+
+std::vector<Dofs> ReducedScene::symmetry_breaking_dofs() const {
+  std::vector<Prescribed> held;
+  for (int dof : held_) held.push_back({dof, 0});
+  std::vector<Dofs> kinds;
+  for (const std::vector<Image>& ties : breaking_ties_) {
+    kinds.push_back(number_dofs(quotient_.mesh.n_nodes(), held, ties, quotient_.mesh.hanging).dofs);
+  }
+  return kinds;
 }
 
 // facets of kept cells: a cell's share counts theirs

@@ -6,11 +6,11 @@
 //   not recognised   indenters read from a file; planes and axes that are not parallel to the coordinate planes or do not pass
 //                    through the middle of the body
 // The reduced scene finds symmetric equilibria only: it cannot leave them where they become
-// unstable, and the signs of its tangent are those for symmetric movements. Results are written for
-// the whole body. A mesh that is a section (mesh/section.hpp) is another such part: the nodes
-// behind z = 0 move as those in it. Its results are written for its own nodes, those in z = 0 with
-// the forces of the whole circle or slab; those of them along x are radial there, and only the
-// resultant along y is a force on the indenter.
+// unstable, and the signs of its tangent are those for symmetric movements; symmetry_breaking_dofs
+// are for the others. Results are written for the whole body. A mesh that is a section
+// (mesh/section.hpp) is another such part: the nodes behind z = 0 move as those in it. Its results
+// are written for its own nodes, those in z = 0 with the forces of the whole circle or slab; those
+// of them along x are radial there, and only the resultant along y is a force on the indenter.
 #pragma once
 
 #include <array>
@@ -48,6 +48,11 @@ class ReducedScene {
   BodyState reduced(const StepRecord& whole) const;   // to continue from
   bool swaps_indenters() const { return swaps_indenters_; }
 
+  // Constraints of the part for movements that break the symmetry, one for each kind of them
+  // (symmetry_breaking_ties in mesh/symmetry.hpp). Empty for a section, whose nodes are those of a
+  // slice: it has no mesh for what leaves its plane.
+  std::vector<Dofs> symmetry_breaking_dofs() const;
+
  private:
   // a candidate of the part as a node of one of the whole body's contacts, and what stands for a
   // candidate of the whole body
@@ -73,6 +78,8 @@ class ReducedScene {
   void tell_fibres(const StepRecord& reduced, StepRecord& record) const;
 
   Quotient quotient_;
+  std::vector<std::vector<Image>> breaking_ties_;  // by kind of movement
+  std::vector<int> held_;  // dofs of the part that supports and loads prescribe in the whole body
   Scene scene_;
   std::string words_;
   bool swaps_indenters_ = false;

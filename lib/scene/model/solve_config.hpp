@@ -141,9 +141,12 @@ struct ContactConfig {
   }
 };
 
-// When the stability of what was found is looked at, and what happens then.
-enum class StabilityCheck { each_step, last, off };
-constexpr auto names(StabilityCheck) { return std::array{"each_step", "last", "off"}; }
+// When the stability of what was found is checked, and what happens then.
+//   auto       at each step; movements that break the symmetry by which the body is reduced at each
+//              step where no indenter is, else at the end of the path (one factorization for each kind)
+//   each_step  all of it at each step
+enum class StabilityCheck { automatic, each_step, last, off };
+constexpr auto names(StabilityCheck) { return std::array{"auto", "each_step", "last", "off"}; }
 enum class OnUnstable { warn, stop };
 constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 
@@ -176,6 +179,47 @@ struct BodyConfig {
   }
 };
 
+// The place on the path where an accuracy is judged.
+enum class AccuracyAt { end, maximum, every_step };
+constexpr auto names(AccuracyAt) { return std::array{"end", "maximum", "every_step"}; }
+
+// A wanted error of one quantity; "1%" is short for {within: 1%}.
+struct AccuracyConfig {
+  static constexpr const char* short_key = "within";
+  std::optional<std::string> of;
+  std::optional<AccuracyAt> at;
+  std::string within;
+  AccuracyConfig() = default;
+  AccuracyConfig(std::string wanted) : within(std::move(wanted)) {}
+  AccuracyConfig(const char* wanted) : within(wanted) {}
+  static void fields(auto& v) {
+    v(&AccuracyConfig::of, "of", unit::none,
+      "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point>; or the kind alone, "
+      "such as reaction, for all of that kind. None: the force of indenters that move as given, the travel of one under force "
+      "control, else the reactions of what is moved, else the displacements of points");
+    v(&AccuracyConfig::at, "at", unit::none,
+      "where on the path: at its end, where the quantity is largest, or at every step. None: at the end, or at the largest value where "
+      "the path ends below half of it");
+    v(&AccuracyConfig::within, "within", unit::none, "wanted error, such as 1%", required);
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> found;
+    if (!percent_of(within))
+      found.push_back(
+          {"within", "found \"" + within + "\"", "a percentage above 0, such as 1%", ""});
+    const auto known = std::array{"force", "reaction", "torque", "travel", "displacement"};
+    const auto is_of = [&](const char* kind) {
+      return *of == kind || of->starts_with(std::string(kind) + "_");
+    };
+    if (of && std::none_of(known.begin(), known.end(), is_of))
+      found.push_back(
+          {"of", "found \"" + *of + "\"",
+           "force, reaction, torque, travel or displacement, or one of them with _ and a name",
+           ""});
+    return found;
+  }
+};
+
 // Named points of the measured front of accuracy against cost (accuracy/accuracy.hpp).
 enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
@@ -205,7 +249,7 @@ constexpr auto names(CellStress) { return std::array{"tensor", "principal"}; }
 
 struct SolveConfig {
   std::optional<MeshConfig> mesh;
-  std::optional<std::string> accuracy;  // "1%"
+  std::optional<AccuracyConfig> accuracy;
   std::optional<Fidelity> fidelity;
   std::optional<EstimateBy> estimate;
   std::vector<Truncation> truncation;
@@ -219,7 +263,7 @@ struct SolveConfig {
   std::map<std::string, ContactConfig> contacts;
   LoadPathOptions path;
   std::variant<NewtonOptions, KinsolOptions> solver;
-  StabilityCheck stability = StabilityCheck::each_step;
+  StabilityCheck stability = StabilityCheck::automatic;
   OnUnstable on_unstable = OnUnstable::warn;
   SymmetryChoice symmetry = SymmetryChoice::automatic;
   Reduce reduce = Reduce::none;
@@ -232,7 +276,7 @@ struct SolveConfig {
     v(&SolveConfig::mesh, "mesh", unit::none,
       "the mesh, as langer-mesh reads it; may come from --mesh instead");
     v(&SolveConfig::accuracy, "accuracy", unit::none,
-      "wanted error of the force on an indenter, or of the reaction of what is moved, such as 1%: chooses the cells of mesh.geometry, the "
+      "wanted error, such as 1%, or {of: travel, at: maximum, within: 1%}: chooses the cells of mesh.geometry, the "
       "increments and the symmetry, from what was measured (pipelines/refinement_study.yaml) or from a coarse solution, and refines until the "
       "estimate is within it; exit code 5 where it is not");
     v(&SolveConfig::fidelity, "fidelity", unit::none,
@@ -265,12 +309,14 @@ struct SolveConfig {
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
     v(&SolveConfig::stability, "stability", unit::none,
-      "when to look at the signs of the constrained tangent and at strong ellipticity in all Gauss points");
+      "when to check the signs of the constrained tangent and strong ellipticity in all Gauss points. auto: at each step; where symmetry "
+      "reduces a body with indenters, movements that break the symmetry at the end of the path only. each_step: these at each step, too");
     v(&SolveConfig::on_unstable, "on_unstable", unit::none,
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
-      "supports, loads and contacts have. Unsymmetric instabilities are not seen then: none solves the whole body");
+      "supports, loads and contacts have. The path stays symmetric where the body becomes unstable, and `stability` says so: none solves "
+      "the whole body");
     v(&SolveConfig::reduce, "reduce", unit::none,
       "auto: an indented_block with free sides whose scene is the same around its axis is solved as an axisymmetric section, a disc "
       "of its area, where the discs inside and around the block tell that its sides change the force by less than accuracy or "
@@ -308,9 +354,6 @@ struct SolveConfig {
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
     if (accuracy && fidelity)
       found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
-    if (accuracy && !percent_of(*accuracy))
-      found.push_back(
-          {"accuracy", "found \"" + *accuracy + "\"", "a percentage above 0, such as 1%", ""});
     const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
     const std::string other_mesh =
         mesh ? "a mesh whose cells follow from no numbers of this config" : "no mesh here";
@@ -354,7 +397,8 @@ struct SolveConfig {
                           : estimates ? "estimate"
                                       : nullptr) {
       const bool pushed = std::any_of(contacts.begin(), contacts.end(),
-                                      [](const auto& c) { return c.second.control; });
+                                      [](const auto& c) { return c.second.control; }) &&
+                          !accuracy && !fidelity && !refines;  // which judge its travel
       const bool moved = std::any_of(loads.begin(), loads.end(),
                                      [](const LoadConfig& l) { return !l.on_surface(); });
       if (pushed)
@@ -370,8 +414,8 @@ struct SolveConfig {
              "that of the stress"});
     }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
-      found.push_back(
-          {"on_unstable", "stop, while stability is off", "stability: each_step or last", ""});
+      found.push_back({"on_unstable", "stop, while stability is off",
+                       "stability: auto, each_step or last", ""});
     return found;
   }
 

@@ -3,9 +3,8 @@
 //   recognised  cells that fill their box, one material, the same fibres in all of them, no contact; every support, imposed
 //               displacement, traction, force and pressure on whole faces of the box
 //   proved      each state, expanded to the mesh, balances there: what is left at free nodes is rounding and the solver's tolerance
-// The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways:
-// whoever looks at stability looks at of_mesh(), which costs a factorization where a solution of
-// the mesh takes several.
+// The signs of the hexahedron's tangent are not those of the mesh, which buckles in more ways: the
+// stability of the mesh is checked on the mesh (solve/cell_stability.hpp, or its factor).
 #pragma once
 
 #include <array>

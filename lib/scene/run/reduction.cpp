@@ -53,9 +53,8 @@ Assembler Reduction::assembler(std::optional<Division> division) const {
   Loads loads;
   if (!scene().loads.empty()) loads = Loads(mesh(), scene().loads, share);
   const int threads = point_ ? 1 : threads_;
-  return Assembler(mesh(), scene().materials, scene().directions, scene().formulation,
-                   scene().dofs, threads, Kernel::packets, share, std::move(division),
-                   std::move(loads));
+  return Assembler(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs,
+                   threads, Kernel::packets, share, std::move(division), std::move(loads));
 }
 
 Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }
@@ -81,6 +80,11 @@ std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
 
 SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_whole) const {
   return point_ ? point_->report(of_part, of_whole) : of_part;
+}
+
+std::vector<Dofs> Reduction::symmetry_breaking_dofs() const {
+  if (!part_) return {};
+  return part_->symmetry_breaking_dofs();
 }
 
 const HomogeneousScene* Reduction::point() const { return point_.get(); }

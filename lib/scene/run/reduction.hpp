@@ -48,9 +48,12 @@ class Reduction {
                      const StepRecord& of_whole) const;  // as if the body had been solved
   BodyState reduced(const StepRecord& of_whole) const;   // to continue from
   void replay(const StepRecord& of_whole) const;  // of a viscous body: a step that was found before
-  const HomogeneousScene* point() const;          // or nullptr
-  Assembler* mesh_of_point() const;  // the mesh that a hexahedron stands for, at the state
-                                     // whole() was asked for last; else nullptr
+  // Constraints of the part for movements that break the symmetry it was found by, one for each
+  // kind; empty where there is none.
+  std::vector<Dofs> symmetry_breaking_dofs() const;
+  const HomogeneousScene* point() const;  // or nullptr
+  Assembler* mesh_of_point() const;       // the mesh that a hexahedron stands for, at the state
+                                          // whole() was asked for last; else nullptr
 
  private:
   const Mesh& mesh_;
