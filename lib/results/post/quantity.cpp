@@ -165,7 +165,7 @@ constexpr QuantityLine lines[]{
      [](const SetState& s) { return s.reaction[2]; }},
     {"swept_volume", "mm^3", "swept volume", "between the surface of the set now and at rest, positive outwards: the volume of a dome; of a section that of the whole circle, or of the slab",
      [](const SetState& s) { return s.swept; }, {.facets = true}},
-    {"von_mises_max", "MPa", "greatest von Mises stress", "over all Gauss points; never negative",
+    {"von_mises_max", "MPa", "greatest von Mises stress", "of the nodal averages, as in figures and in the error estimate; never negative",
      [](const Extremes& all) { return all.von_mises; }},
     {"von_mises_max_x", "mm", "x of the greatest von Mises stress", "place in the reference state",
      [](const Extremes& all) { return all.place[0]; }},
