@@ -80,9 +80,16 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
       moved_furthest = std::max(moved_furthest, moved.furthest);
       lines[i] = moved.lines;
     };
-    if (i == 1 && !b.borders.empty()) {
+    if (i == 1 && !b.borders.empty() && !b.family) {
       for (double y : b.borders) demands.push_back({y, "bodies"});
       pass();
+    }
+    if (b.family) {
+      std::vector<double> breaks = b.family->breaks[static_cast<std::size_t>(i)];
+      for (const auto& [name, x] : points) breaks.push_back(x[i]);
+      if (i == 1) breaks.insert(breaks.end(), b.borders.begin(), b.borders.end());
+      lines[i] = in_family(lines[i], std::move(breaks), b.family->length, b.family->parts);
+      continue;
     }
     if (b.instead && i == 1)
       lines[i] = resampled_between(lines[i], b.borders, 1.0 * (*b.instead)[1] / n);
@@ -101,6 +108,15 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
 
 Mesh mesh_of(const Block& block, const Points& points, std::vector<std::string>& notes) {
   return hexahedra_between(grid_lines(block, points, notes));
+}
+
+std::array<int, 3> Block::numbers() const {
+  if (!family) return instead.value_or(divisions);
+  std::vector<std::string> notes;
+  const GridLines lines = grid_lines(*this, {}, notes);
+  std::array<int, 3> n{};
+  for (std::size_t i = 0; i < 3; ++i) n[i] = static_cast<int>(lines[i].size()) - 1;
+  return n;
 }
 
 std::vector<Complaint> Block::complaints() const {

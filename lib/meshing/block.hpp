@@ -45,6 +45,7 @@ struct Block {
       borders;  // y of the faces between layers: grid lines go through them; not for files
   std::optional<AroundPlace>
       around;  // in place of the middle; its numbers add up to those above; not for files
+  std::optional<MeshFamily> family;  // not for files
   static void fields(auto& v) {
     v(&Block::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&Block::size, "size", unit::mm, "lengths along x, y, z", required, between(1e-3, 1e6));
@@ -55,6 +56,7 @@ struct Block {
     v(&Block::top, "top", unit::none, "refinement towards the top in y; none: even cells");
   }
   std::vector<Complaint> complaints() const;
+  std::array<int, 3> numbers() const;  // of cells, as meshed
 };
 
 struct Core {
@@ -114,7 +116,8 @@ struct IndentedBlock {
   double radius = 0, depth = 0, edge = 0.175;
   double longer = 1;  // all cells by this factor, as nearly as their numbers allow; not for files
   std::optional<std::array<double, 2>> under, even;
-  std::vector<double> borders;  // y of the faces between layers; not for files
+  std::vector<double> borders;       // y of the faces between layers; not for files
+  std::optional<MeshFamily> family;  // its cells follow from edge; not for files
   static void fields(auto& v) {
     v(&IndentedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required,
@@ -169,6 +172,10 @@ std::vector<int> numbers_of_cells(const Geometry& geometry);  // along each axis
 // All cells longer by one factor, as nearly as their numbers allow, graded as they were; not for
 // files. Where there is one cell along an axis it stays.
 void lengthen_cells(Geometry& geometry, double factor);
+// Puts the geometry into a family of meshes, through these breaks; a disc stays as it is.
+void put_in_family(Geometry& geometry, const std::array<std::vector<double>, 3>& breaks);
+// of a geometry in a family; nullptr of others
+MeshFamily* family_of(Geometry& geometry);
 // the same in the keys of the config: edge, or divisions and the edges of graded cells; also
 // shorter ones
 void scale_cells(Geometry& geometry, double factor);

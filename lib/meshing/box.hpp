@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "core/base/fields.hpp"
 
@@ -26,6 +28,17 @@ struct TowardsTop {
   static void fields(auto& v) {
     v(&TowardsTop::edge, "edge", unit::mm, "height of the uppermost cells", required, positive);
   }
+};
+
+// Meshes of one family: all cells of two of them differ by one factor, along each axis and between
+// each two breaks. Breaks are where sets and loads end and where points lie; lines go through them
+// on every mesh. Not for files.
+struct MeshFamily {
+  double length = 1;  // of the cells, in those that the numbers of the geometry give
+  // Cells come in fours, or of coarser meshes of the family in threes and twos: so these are longer
+  // by 4 / parts, exactly.
+  int parts = 4;
+  std::array<std::vector<double>, 3> breaks{};  // along x, y, z [mm]
 };
 
 }  // namespace langer

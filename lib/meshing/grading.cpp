@@ -187,6 +187,60 @@ Moved through(const std::vector<double>& lines, std::vector<Demand> demands,
   return moved;
 }
 
+namespace {
+
+// Places on an axis by the number of cells below them, not whole between lines.
+class ByNumber {
+ public:
+  explicit ByNumber(const std::vector<double>& lines)
+      : n_(static_cast<int>(lines.size()) - 1), fine_(resampled(lines, per_cell * n_)) {}
+  double number_at(double x) const {
+    const auto above = std::upper_bound(fine_.begin() + 1, fine_.end() - 1, x);
+    const double low = *(above - 1);
+    const auto i = static_cast<double>(above - 1 - fine_.begin());
+    return (i + (x - low) / (*above - low)) / per_cell;
+  }
+  double place_of(double number) const {
+    const double at = number * per_cell;
+    const auto i = std::min(static_cast<std::size_t>(at), fine_.size() - 2);
+    return fine_[i] + (at - static_cast<double>(i)) * (fine_[i + 1] - fine_[i]);
+  }
+
+ private:
+  static constexpr int per_cell = 32;
+  int n_;
+  std::vector<double> fine_;
+};
+
+}  // namespace
+
+std::vector<double> in_family(const std::vector<double>& lines, std::vector<double> breaks,
+                              double length, int parts) {
+  const double low = lines.front();
+  const double high = lines.back();
+  const double slack = 1e-9 * (high - low);
+  std::erase_if(breaks, [&](double x) { return x < low + slack || x > high - slack; });
+  if (lines.size() == 2 && breaks.empty()) return lines;
+  breaks.push_back(low);
+  breaks.push_back(high);
+  std::sort(breaks.begin(), breaks.end());
+  const auto near = [slack](double a, double b) {
+    return b - a <= slack;
+  };
+  breaks.erase(std::unique(breaks.begin(), breaks.end(), near), breaks.end());
+  const ByNumber numbers(lines);
+  std::vector<double> found{low};
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double first = numbers.number_at(breaks[i]);
+    const double last = numbers.number_at(breaks[i + 1]);
+    const auto quads = std::max(1L, std::lround((last - first) / (4 * length)));
+    const int n = parts * static_cast<int>(quads);
+    for (int k = 1; k < n; ++k) found.push_back(numbers.place_of(first + (last - first) * k / n));
+    found.push_back(breaks[i + 1]);
+  }
+  return found;
+}
+
 std::vector<int> divided(const std::vector<int>& n, double wanted) {
   std::vector<int> best = n;
   double least = std::numeric_limits<double>::infinity();

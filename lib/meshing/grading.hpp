@@ -52,6 +52,11 @@ std::vector<double> lines_to_top(double low, double high, int n, double edge,
 // all by one factor
 std::vector<double> resampled(const std::vector<double>& lines, int n);
 
+// The lines of a mesh of a family (meshing/box.hpp): between the breaks as many cells as the family
+// gives, graded as `lines` are. One cell without breaks stays one.
+std::vector<double> in_family(const std::vector<double>& lines, std::vector<double> breaks,
+                              double length, int parts);
+
 // n[i] / factor for a factor near `wanted` by which all can be divided best; fewer than n of at
 // least one. What is 0 stays 0.
 std::vector<int> divided(const std::vector<int>& n, double wanted);

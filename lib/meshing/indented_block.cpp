@@ -73,6 +73,16 @@ Block IndentedBlock::block() const {
   b.divisions[1] = std::max({2, growing_cells(0.875, edge, 1 + size[1] / a, 3),
                              1 + needed_cells(size[1] - 1.6 * cell, 1.6 * cell)});
   b.top = TowardsTop{std::min(1.6 * cell, size[1] / b.divisions[1])};
+  if (family) {
+    // lines pass through the middle, or through the place that cells are around
+    b.family = family;
+    for (std::size_t i : {0U, 2U}) {
+      const bool at_place = under.has_value();
+      const double middle = origin[i] + 0.5 * size[i];
+      b.family->breaks[i].push_back(at_place ? (*under)[i / 2] : middle);
+    }
+    return b;
+  }
   if (longer != 1 && beside) {
     const auto& [x, z] = b.around->n;
     const std::vector<int> n = divided({x[0], x[1], b.divisions[1], z[0], z[1]}, longer);

@@ -8,11 +8,6 @@ namespace langer {
 
 namespace {
 
-template <class Box, std::size_t n>
-std::array<int, n> meshed(const Box& box, const std::array<int, n>& divisions) {
-  return box.instead.value_or(divisions);
-}
-
 // An even number stays even, so that a line keeps passing through the middle, unless it is too
 // small to be divided by little.
 template <class Box>
@@ -31,6 +26,10 @@ void lengthen(Box& box, double factor) {
 
 template <class Box>
 void scale(Box& box, double factor) {
+  if (box.family) {
+    box.family->length *= factor;
+    return;
+  }
   for (int& n : box.divisions) {
     const bool even = n % 2 == 0;
     if (n > 1)
@@ -56,13 +55,33 @@ bool has_numbers_of_cells(const Geometry& geometry) {
 
 std::vector<int> numbers_of_cells(const Geometry& geometry) {
   const auto of = [](const auto& box) {
-    const auto n = meshed(box, box.divisions);
+    const auto n = box.numbers();
     return std::vector<int>(n.begin(), n.end());
   };
   if (const auto* block = std::get_if<Block>(&geometry)) return of(*block);
   if (const auto* block = std::get_if<IndentedBlock>(&geometry)) return of(block->block());
   if (const auto* disc = std::get_if<IndentedDisc>(&geometry)) return of(disc->section());
   return of(std::get<SectionBox>(geometry));
+}
+
+void put_in_family(Geometry& geometry, const std::array<std::vector<double>, 3>& breaks) {
+  const auto put = [&](auto* with_family) {
+    if (!with_family) return;
+    with_family->family.emplace();
+    with_family->family->breaks = breaks;
+  };
+  put(std::get_if<Block>(&geometry));
+  put(std::get_if<SectionBox>(&geometry));
+  put(std::get_if<IndentedBlock>(&geometry));
+}
+
+MeshFamily* family_of(Geometry& geometry) {
+  const auto of = [](auto* with_family) -> MeshFamily* {
+    return with_family && with_family->family ? &*with_family->family : nullptr;
+  };
+  if (MeshFamily* family = of(std::get_if<Block>(&geometry))) return family;
+  if (MeshFamily* family = of(std::get_if<SectionBox>(&geometry))) return family;
+  return of(std::get_if<IndentedBlock>(&geometry));
 }
 
 void lengthen_cells(Geometry& geometry, double factor) {

@@ -40,6 +40,12 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   } else {
     lines = even_lines(low, high, n);
   }
+  if (b.family) {
+    std::vector<double> breaks = b.family->breaks[static_cast<std::size_t>(axis)];
+    for (const auto& [name, x] : points) breaks.push_back(x[axis]);
+    if (axis == 1) breaks.insert(breaks.end(), b.borders.begin(), b.borders.end());
+    return in_family(lines, std::move(breaks), b.family->length, b.family->parts);
+  }
   if (b.instead) lines = resampled(lines, (*b.instead)[axis]);
   std::vector<Demand> demands;
   for (const auto& [name, x] : points) demands.push_back({x[axis], "points." + name});
@@ -85,6 +91,17 @@ Mesh mesh_of(const SectionBox& box, const Points& points, std::vector<std::strin
 
 Mesh mesh_of(const IndentedDisc& disc, const Points& points, std::vector<std::string>& notes) {
   return mesh_of(disc.section(), points, notes);
+}
+
+std::array<int, 2> SectionBox::numbers() const {
+  if (!family) return instead.value_or(divisions);
+  std::vector<std::string> notes;
+  std::array<int, 2> n{};
+  for (int axis : {0, 1}) {
+    n[static_cast<std::size_t>(axis)] =
+        static_cast<int>(lines_along(*this, axis, {}, notes).size()) - 1;
+  }
+  return n;
 }
 
 std::vector<Complaint> SectionBox::complaints() const {

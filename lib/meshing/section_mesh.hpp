@@ -26,6 +26,7 @@ struct SectionBox {
   std::optional<std::array<int, 2>> instead;  // of `divisions`, graded as they are; not for files
   std::vector<double>
       borders;  // y of the faces between layers: grid lines go through them; not for files
+  std::optional<MeshFamily> family;  // not for files
   static void fields(auto& v) {
     v(&SectionBox::of, "of", unit::none,
       "a body of revolution about the y axis, x being the radius, or one that does not move along z",
@@ -41,6 +42,7 @@ struct SectionBox {
       "of plane strain, along z: forces and energies are those of it; none: 1", positive);
   }
   Box spans() const { return {{origin[0], origin[1], 0}, {size[0], size[1], 0}}; }
+  std::array<int, 2> numbers() const;  // of cells, as meshed
   std::vector<Complaint> complaints() const;
 };
 

@@ -59,6 +59,11 @@ struct Family {
   }
 };
 
+// whether the meshes of the config are those of a family (meshing/box.hpp)
+bool in_family(SolveConfig config) {
+  return config.mesh && family_of(config.mesh->geometry) != nullptr;
+}
+
 struct Limit {
   double value;
   double scatter;  // root mean square of what the fit leaves
@@ -79,6 +84,56 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   const double A = w.dot(dx.cwiseProduct(dq)) / w.dot(dx.cwiseProduct(dx));
   const VecX left = dq - A * dx;
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
+}
+
+// What three meshes show by themselves, the finest first: q = f + A length^p with the p that they
+// have, p at most `theory`. Differences of opposite signs follow no such law: then the larger one
+// is taken for the scatter.
+struct ObservedLaw {
+  double limit;
+  double order;
+  double scatter;
+  bool grows;  // p is so small that nothing shows a limit
+};
+std::optional<ObservedLaw> observed_law(const std::vector<double>& length,
+                                        const std::vector<double>& values, double theory) {
+  constexpr double least = 0.35;  // a smaller order is none
+  if (length.size() != 3 || values.size() != 3) return std::nullopt;
+  const double near = values[1] - values[0];
+  const double far = values[2] - values[1];
+  const double rounding = 1e-9 * std::abs(values[0]);
+  if (std::abs(near) <= rounding) return ObservedLaw{values[0], theory, 0.5 * std::abs(far), false};
+  const auto ratio = [&](double p) {
+    return (std::pow(length[1], p) - std::pow(length[0], p)) /
+           (std::pow(length[2], p) - std::pow(length[1], p));
+  };
+  const auto limit = [&](double p) {
+    return values[0] - near / (std::pow(length[1] / length[0], p) - 1);
+  };
+  if (near * far <= 0) {
+    const double larger = std::max(std::abs(near), std::abs(far));
+    return ObservedLaw{values[0], theory, larger, false};
+  }
+  const double found = near / far;
+  if (found >= ratio(least)) return ObservedLaw{limit(least), least, 0, true};
+  double low = least;
+  double high = 8;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (ratio(middle) > found) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  if (low <= theory) return ObservedLaw{limit(low), low, 0, false};
+  // Falling faster than theory says, by superconvergence or as two errors happen to cancel: the
+  // larger difference then says more.
+  const double by_far =
+      values[0] - (values[2] - values[0]) / (std::pow(length[2] / length[0], theory) - 1);
+  const double by_near = limit(theory);
+  const bool far_is_further = std::abs(by_far - values[0]) > std::abs(by_near - values[0]);
+  return ObservedLaw{far_is_further ? by_far : by_near, theory, 0, false};
 }
 
 // The greatest stress below an indenter lies between points of the cells, wherever these are: by
@@ -135,7 +190,11 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
                  [&](const Item& item) { return quantity(item).name.starts_with(begins); });
   };
-  for (const char* begins : {"force_", "force", "reaction_"})
+  if constexpr (std::is_same_v<Item, ErrorEstimate>) {
+    std::ranges::copy_if(all, std::back_inserter(found), [](const auto& e) { return e.asked; });
+    if (!found.empty()) return found;
+  }
+  for (const char* begins : {"travel_", "force_", "force", "reaction_"})
     if (found.empty()) take(begins);
   take("torque_");
   if (found.empty()) take("displacement_");
@@ -210,8 +269,12 @@ std::vector<Valued> end_of_path(const SolveConfig& config, const std::optional<M
 
 std::vector<Valued> valued_forces(const StepForces& forces) {
   std::vector<Valued> found;
-  for (const auto& [name, size] : forces.of)
-    found.push_back({name, name.starts_with("torque_") ? "N mm" : "N", size});
+  for (const auto& [name, size] : forces.of) {
+    const char* unit = unit::N;
+    if (name.starts_with("torque_")) unit = "N mm";
+    if (name.starts_with("travel_")) unit = unit::mm;
+    found.push_back({name, unit, size});
+  }
   return found;
 }
 
@@ -298,6 +361,57 @@ std::vector<double> no_shorter_than_beside(const std::vector<double>& bars,
 
 }  // namespace
 
+namespace {
+
+// Where on the path a quantity is judged: as accuracy.at says; without it at the end, or where it
+// is largest if the path ends below half of that, as after an unloading.
+double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
+                 const std::string& name) {
+  const std::optional<AccuracyAt> at = config.accuracy ? config.accuracy->at : std::nullopt;
+  if (path.empty() || (at && *at != AccuracyAt::maximum)) return 1;
+  double largest = 0;
+  double where = 1;
+  for (const StepForces& step : path) {
+    const auto found = step.of.find(name);
+    if (found == step.of.end() || found->second <= largest) continue;
+    largest = found->second;
+    where = step.t;
+  }
+  const bool ends_low = force_at(path, name, 1) < 0.5 * largest;
+  return at || ends_low ? where : 1;
+}
+
+// Of the steps the one with the largest error in percent, among those that are not nearly without
+// load; `last` where there is none.
+ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps, const ErrorEstimate& last) {
+  constexpr double small = 0.05;  // of the largest value on the path
+  double largest = 0;
+  for (const ErrorEstimate& e : steps) largest = std::max(largest, std::abs(e.of.value));
+  ErrorEstimate worst = last;
+  for (const ErrorEstimate& e : steps) {
+    if (std::abs(e.of.value) < small * largest) continue;
+    const bool larger = std::abs(worst.of.value) < small * largest ||
+                        e.in_percent(e.total()) > worst.in_percent(worst.total());
+    if (larger) worst = e;
+  }
+  return worst;
+}
+
+Failure not_in_scene(const std::string& asked, const std::vector<Valued>& found,
+                     const Find& where) {
+  std::string known;
+  for (const Valued& q : found) {
+    if (q.name == "von_mises_max") continue;
+    known += (known.empty() ? "" : ", ") + q.name;
+  }
+  return Failure(
+      Exit::config,
+      Error{where("accuracy.of"), "accuracy.of", "found \"" + asked + "\"",
+            known.empty() ? "a quantity of this scene; it has none" : "one of " + known, ""});
+}
+
+}  // namespace
+
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
                           const Find& where, const SolvedPath& itself, double residual,
                           const EstimateListener& listener) {
@@ -310,6 +424,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     });
   });
   PathErrors out;
+  // no study stands for these scenes: their meshes show the order themselves
+  const bool observes = config.contacts.empty() || in_family(config);
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config),
                beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
@@ -318,17 +434,29 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     const double order = q.name == "von_mises_max" ? 1 : order_of_force(config);
     const auto limit = limit_of(all.telling(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
+    std::optional<ObservedLaw> law;
+    if (observes) law = observed_law(all.telling(q).length, on_meshes, order);
     const double increments =
         in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
     ErrorEstimate e{
         q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
+    e.t = t;
+    if (law) {
+      e.cells = q.value - law->limit;
+      e.scatter = law->scatter;
+      e.order = law->order;
+      e.order_observed = law->order < order && !law->grows;
+      e.grows = law->grows && q.name == "von_mises_max";
+    }
     const double touching =
         touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
+    const bool of_contact = q.of_force() || q.of_travel();
     if (q.name == "von_mises_max")
       e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) *
                                           std::abs(q.value));
-    if (q.unit == unit::mm) e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
-    if (q.of_force()) {
+    if (q.unit == unit::mm && !q.of_travel())
+      e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
+    if (of_contact) {
       e.scatter = std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
                             0.5 * beside_hole * std::abs(q.value)});
@@ -342,25 +470,46 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.alike : all.family).of;
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
+  const std::optional<std::string> asked = config.accuracy ? config.accuracy->of : std::nullopt;
   for (const Valued& q : itself.found) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));
       continue;
     }
-    auto at_end = judged(q, 1, all.telling(q).ends(q.name), increments.ends(q.name));
-    if (!at_end) continue;
-    if (q.of_force()) at_end->left_out = all.left_out(q);
-    out.at_end.push_back(*at_end);
-    if (!q.of_force()) continue;
-    for (const StepForces& step : itself.path) {
-      const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
-      const auto e = judged(there, step.t, all.telling(q).forces(q.name, step.t),
-                            increments.forces(q.name, step.t));
-      out.along[q.name].push_back(e->total());
+    constexpr double no_stress = 1e-10;  // [MPa], as after an unloading
+    if (q.name == "von_mises_max" && q.value < no_stress) continue;
+    const Family& meshes_of_q = all.telling(q);
+    const bool on_path = q.of_force() || q.of_travel();
+    const double t = on_path ? judged_at(config, itself.path, q.name) : 1;
+    std::optional<ErrorEstimate> estimate;
+    if (t == 1) {
+      estimate = judged(q, 1, meshes_of_q.ends(q.name), increments.ends(q.name));
+    } else {
+      const Valued there{q.name, q.unit, force_at(itself.path, q.name, t)};
+      estimate = judged(there, t, meshes_of_q.forces(q.name, t), increments.forces(q.name, t));
     }
-    if (!itself.path.empty())
-      out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
+    if (!estimate) continue;
+    estimate->asked = asked && (q.name == *asked || q.name.starts_with(*asked + "_"));
+    if (q.of_force()) estimate->left_out = all.left_out(q);
+    if (on_path) {
+      std::vector<ErrorEstimate> steps;
+      for (const StepForces& step : itself.path) {
+        const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
+        steps.push_back(*judged(there, step.t, meshes_of_q.forces(q.name, step.t),
+                                increments.forces(q.name, step.t)));
+      }
+      if (config.accuracy && config.accuracy->at == AccuracyAt::every_step)
+        estimate = worst_of(steps, *estimate);
+      if (q.of_force()) {
+        for (const ErrorEstimate& e : steps) out.along[q.name].push_back(e.total());
+        if (!itself.path.empty())
+          out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
+      }
+    }
+    out.at_end.push_back(*estimate);
   }
+  if (asked && std::ranges::none_of(out.at_end, [](const auto& e) { return e.asked; }))
+    throw not_in_scene(*asked, itself.found, where);
   out.growth = (all.alike.of.empty() ? all.family : all.alike).growth();
   return out;
 }
@@ -382,12 +531,16 @@ PathErrors estimated(const SolveConfig& config, const std::optional<Material>& m
 }
 
 std::string in_words(const ErrorEstimate& e) {
+  if (e.grows)
+    return fmt::format("{} {:.4g} {} on these cells: it grows without bound on finer meshes",
+                       e.of.name, e.of.value, e.of.unit);
+  const std::string at = e.t < 1 ? fmt::format(" at t = {:.4g}", e.t) : "";
   if (e.none_yet())
     return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit,
                        e.of.name.starts_with("force") ? "nothing is touched" : "no error");
   if (e.of.value == 0)
     return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
-  const std::string begins = fmt::format("{} {:.4g} {} +- {:.2g} %", e.of.name, e.of.value,
+  const std::string begins = fmt::format("{}{} {:.4g} {} +- {:.2g} %", e.of.name, at, e.of.value,
                                          e.of.unit, e.in_percent(e.total()));
   const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
   if (!e.has_limit) {
@@ -409,11 +562,16 @@ std::string in_words(const ErrorEstimate& e) {
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
   std::vector<Summary> summary;
   for (const ErrorEstimate& e : estimates) {
+    if (e.grows) continue;  // no bar and no limit
     const auto add = [&](const char* what, double value) {
       summary.push_back({e.of.name + what, value, e.of.unit});
     };
     add("_error", e.total()), add("_error_cells", e.cells);
     if (e.has_limit) add("_limit", e.limit());
+    if (e.t < 1) {
+      add("_judged", e.of.value);
+      summary.push_back({e.of.name + "_judged_at", e.t, "-"});
+    }
     add("_error_increments", e.increments), add("_error_scatter", e.scatter);
     add("_error_solver", e.solver);
     for (const ErrorEstimate::Part& part : e.left_out)

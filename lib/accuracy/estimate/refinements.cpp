@@ -91,6 +91,23 @@ void add_longer_hex27(Refinements& refined, const SolveConfig& config) {
   }
 }
 
+// Coarser meshes of the family that the solved one belongs to, with the same cells.
+void add_family(Refinements& refined, const SolveConfig& config) {
+  const bool quadratic = reference(config.mesh->cells).second_order();
+  std::vector<SolveConfig>& scenes = quadratic ? refined.hex27 : refined.hex8;
+  std::vector<double>& length = quadratic ? refined.hex27_length : refined.length;
+  constexpr double parts = 4;  // of the solved mesh
+  length = {1};
+  for (int fewer : {3, 2}) {
+    SolveConfig other = config;
+    family_of(other.mesh->geometry)->parts = fewer;
+    any_symmetry(other);
+    scenes.push_back(std::move(other));
+    length.push_back(parts / fewer);
+  }
+  refined.own = !quadratic;
+}
+
 }  // namespace
 
 Refinements refinements(const SolveConfig& given, const Find& where) {
@@ -111,7 +128,10 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
       config.formulation == Formulation::displacement;  // and with it its limit on such cells
   refined.own = !quadratic && !locks;
   const auto& factors = config.estimate == EstimateBy::automatic ? cheap : longer;
-  if (const double* edge = edge_in_contact_radii(geometry)) {
+  const bool family = family_of(geometry) != nullptr;
+  if (family) {
+    add_family(refined, config);
+  } else if (const double* edge = edge_in_contact_radii(geometry)) {
     const Lengths lengths = is_section(geometry) ? of_disc : of_block;
     refined.own = refined.own && *edge * factors.back() <= lengths.fine_enough * longer.back();
     refined.edge_unresolved =
@@ -122,15 +142,15 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
     if (quadratic) scale_cells(geometry, 0.5);  // as many nodes
     any_symmetry(other);
   }
-  if (!refined.own) {
+  if (!refined.own && !family) {
     other.mesh->cells = CellType::hex8;
     other.formulation.reset();
   }
-  if (!quadratic || !config.contacts.empty()) {
+  if (!family && (!quadratic || !config.contacts.empty())) {
     if (!refined.own) refined.hex8.push_back(other);
     add_longer_hex8(refined, other, factors, where);
   }
-  if (quadratic) add_longer_hex27(refined, config);
+  if (quadratic && !family) add_longer_hex27(refined, config);
   const SolveConfig& coarsest = refined.hex8.empty() ? refined.hex27.back() : refined.hex8.back();
   for (Truncation truncation : config.truncation)
     refined.wider[truncation] = wider(coarsest, truncation);

@@ -27,6 +27,7 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
 // error (docs/work_precision.md)
 constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0},
     coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
+constexpr AccuracyLevel bent{CellType::hex27, 0.5, 0.25, 0};  // a sheet that bends
 constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};
 constexpr double enough_for_coarsest = 2;  // [%]
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
@@ -52,11 +53,71 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
   }
 }
 
+// Whether the body lies on its bottom, as the study's bodies do: each support holds all of the
+// bottom, and its bottom cannot move along y.
+bool lies_on_its_bottom(const SolveConfig& config) {
+  bool held = false;
+  for (const SupportConfig& support : config.supports) {
+    if (support.on != "bottom" && support.on != "y_min") return false;
+    held = held || std::ranges::count(support.hold, Axis::y) > 0;
+  }
+  return held;
+}
+
+// Where a set ends, on the axes along which it is a part of the body. A box that holds less than
+// one cell along an axis selects a plane there.
+void add_ends(const MeshConfig& mesh, const SetConfig& set,
+              std::array<std::vector<double>, 3>& breaks) {
+  const auto [origin, size] = box(mesh.geometry);
+  const std::vector<int> n = numbers_of_cells(mesh.geometry);
+  if (const auto* plane = std::get_if<OnPlane>(&set.within)) {
+    breaks[static_cast<std::size_t>(plane->axis[0] - 'x')].push_back(plane->at);
+    return;
+  }
+  const auto* part = std::get_if<InBox>(&set.within);
+  if (!part) return;
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const std::string axis(1, "xyz"[i]);
+    const bool across = set.of && (set.of->starts_with(axis) ||
+                                   (axis == "y" && (*set.of == "top" || *set.of == "bottom")));
+    if (across || part->to[i] - part->from[i] < 0.5 * size[i] / n[i]) continue;
+    breaks[i].push_back(part->from[i]);
+    breaks[i].push_back(part->to[i]);
+  }
+}
+
+// Where lines have to go on every mesh of an estimate: ends of the sets that supports, loads and
+// contacts name, points, borders of layers. So sets have the same area on all of them.
+std::array<std::vector<double>, 3> breaks_of(const SolveConfig& config) {
+  std::array<std::vector<double>, 3> breaks;
+  const MeshConfig& mesh = *config.mesh;
+  const auto add = [&](const std::string& name) {
+    const auto found = mesh.sets.find(name);
+    if (found != mesh.sets.end()) add_ends(mesh, found->second, breaks);
+  };
+  for (const SupportConfig& support : config.supports) add(support.on);
+  for (const LoadConfig& load : config.loads) add(load.on);
+  for (const auto& [name, contact] : config.contacts) add(contact.on);
+  for (const auto& [name, x] : mesh.points)
+    for (std::size_t i = 0; i < 3; ++i) breaks[i].push_back(x[i]);
+  double y = box(mesh.geometry).origin[1];
+  for (const LayerConfig& layer : mesh.bodies) breaks[1].push_back(y += layer.thickness);
+  return breaks;
+}
+
+// Scenes that no study stands for are judged on meshes of one family, whose order shows by itself.
+// Indentations of a body that lies on its bottom have been measured on meshes of their own kind.
+bool wants_family(const SolveConfig& config) {
+  if (std::holds_alternative<IndentedDisc>(config.mesh->geometry)) return false;
+  if (!std::holds_alternative<IndentedBlock>(config.mesh->geometry)) return true;
+  return !lies_on_its_bottom(config) || !config.loads.empty();
+}
+
 // one sphere above the middle of one layer, at least as thick as the contact is wide
 bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint>& print) {
   const auto* block = std::get_if<IndentedBlock>(&config.mesh->geometry);
   if (!block || config.contacts.size() != 1 || !config.loads.empty() ||
-      config.mesh->bodies.size() > 1 || !print)
+      config.mesh->bodies.size() > 1 || !print || !lies_on_its_bottom(config))
     return false;
   const ContactConfig& contact = config.contacts.begin()->second;
   if (!std::holds_alternative<Sphere>(contact.rigid) || contact.rotation) return false;
@@ -74,9 +135,13 @@ CellType first_cells(const SolveConfig& config, bool cut) {
   const auto is_plane = [](const auto& c) {
     return std::holds_alternative<Plane>(c.second.rigid) && !c.second.adhesion;
   };
-  const bool better = std::ranges::all_of(config.contacts, is_plane) && !has_friction(config) &&
-                      !wants_other_than_hex27(config) &&
-                      !has_edge_in_contact_radii(config.mesh->geometry);
+  // a body that is not held below bends, and hex8 are too stiff for that
+  const bool bends =
+      has_edge_in_contact_radii(config.mesh->geometry) && !lies_on_its_bottom(config);
+  const bool by_faces = std::ranges::all_of(config.contacts, is_plane) &&
+                        !has_edge_in_contact_radii(config.mesh->geometry);
+  const bool better =
+      (by_faces || bends) && !has_friction(config) && !wants_other_than_hex27(config);
   return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27
                                                                 : config.mesh->cells;
 }
@@ -96,9 +161,11 @@ AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chose
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config, cells);
-  const int fewest_layers = 5 * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyLevel level = is_section(geometry) ? of_disc
-                        : chosen.cut         ? to_be_cut
+  const int per_layer = cells == CellType::hex27 ? 2 : 5;
+  const int fewest_layers = per_layer * std::max(1, static_cast<int>(config.mesh->bodies.size()));
+  AccuracyLevel level = is_section(geometry)       ? of_disc
+                        : cells == CellType::hex27 ? bent
+                        : chosen.cut               ? to_be_cut
                         : has_friction(config) && chosen.wanted < enough_for_coarsest
                             ? coarsest_with_friction
                             : coarsest;
@@ -171,8 +238,8 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   if (!asks_for_accuracy(config)) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
-  chosen.wanted =
-      config.accuracy ? *percent_of(*config.accuracy) : by_name[static_cast<int>(*config.fidelity)];
+  chosen.wanted = config.accuracy ? *percent_of(config.accuracy->within)
+                                  : by_name[static_cast<int>(*config.fidelity)];
   const bool may_be_cut =
       !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
   chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
@@ -190,6 +257,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
                                              : std::nullopt;
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   const CellType first = first_cells(config, chosen.cut);
+  if (wants_family(config) && !chosen.cut) put_in_family(geometry, breaks_of(config));
   chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
   const bool elastic = !config.path.seconds;  // as the study's bodies
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
@@ -357,10 +425,21 @@ bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
   begins_ = false;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   const OrdersSeen orders = orders_since_before(estimates);
-  const auto finer = found.met ? std::nullopt : finer_level(*chosen_, estimates, orders);
-  if (!finer) return false;
+  if (found.met) return false;
+  const auto finer = finer_level(*chosen_, estimates, orders);
+  if (!finer) {
+    const AccuracyLevel finest = finest_level(*chosen_);
+    if (finest.edge < 0.99 * chosen_->level.edge)
+      not_begun_ = fmt::format("the finest level that was tried, {}, would have about {:.2g} %",
+                               in_words(finest), percent_at(*chosen_, estimates, finest));
+    return false;
+  }
   not_begun_ = not_begun(*finer);
-  if (!not_begun_.empty()) return false;
+  if (!not_begun_.empty()) {
+    not_begun_ +=
+        fmt::format("; its error would be about {:.2g} %", percent_at(*chosen_, estimates, *finer));
+    return false;
+  }
   take(*finer);
   voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
   return true;
@@ -371,6 +450,13 @@ std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& esti
   if (forces_judged(estimates).empty()) return 0.0;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   return found.met ? std::nullopt : std::optional(chosen_->wanted / found.percent);
+}
+
+std::optional<double> Accuracy::missed_by(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_ || forces_judged(estimates).empty()) return std::nullopt;
+  const ReachedAccuracy found = reached(*chosen_, estimates);
+  if (found.met) return std::nullopt;
+  return found.percent;
 }
 
 std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimates) const {

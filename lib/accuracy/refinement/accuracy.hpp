@@ -76,6 +76,12 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
                                          const std::vector<ErrorEstimate>& estimates,
                                          const OrdersSeen& seen = {});
 
+// The error [%] that a level is expected to have, from these errors and the orders of their cells;
+// of the finest level that there is.
+double percent_at(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+                  const AccuracyLevel& level);
+AccuracyLevel finest_level(const ChosenLevel& chosen);
+
 AccuracyLevel finest_at_once(const ChosenLevel& chosen);  // the most that finer_level takes
 double n_cells(const Geometry& geometry);                 // of numbers_of_cells, without symmetry
 
@@ -102,6 +108,8 @@ class Accuracy {
   // The share of what was reached that is wanted, where that is less; 0 where it is not known.
   // Nothing where it is met, or none is asked for.
   std::optional<double> wanted_of(const std::vector<ErrorEstimate>& estimates) const;
+  // What was reached, where it is not what was asked for [%]; nothing where it is, or is not known.
+  std::optional<double> missed_by(const std::vector<ErrorEstimate>& estimates) const;
   // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where
   // it may be. Says what it takes.
   std::string not_begun(const Mesh& mesh) const;

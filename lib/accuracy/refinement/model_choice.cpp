@@ -54,10 +54,29 @@ bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
   }
   if (is_last_) return false;
   std::optional<Level> here;
-  if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_};
+  const std::optional<double> percent = accuracy_.missed_by(errors.at_end);
+  if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_, percent};
   const bool again = errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
-  if (again) before_ = std::move(here);
-  return again;
+  if (again) {
+    before_ = std::move(here);
+    return true;
+  }
+  constexpr double clearly = 0.9;
+  if (!percent || !before_ || !before_->percent || *before_->percent > clearly * *percent)
+    return false;
+  back_to_level_before(
+      fmt::format("the error of a finer level is estimated at {:.2g} %, and {:.2g} % before",
+                  *percent, *before_->percent));
+  return true;
+}
+
+void ModelChoice::back_to_level_before(const std::string& why) {
+  voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
+  accuracy_ = before_->accuracy;
+  cells_ = before_->cells;
+  accuracy_.ends_here(why);
+  before_.reset();
+  is_last_ = true;
 }
 
 bool ModelChoice::another(const Failure& failure) {
@@ -65,11 +84,7 @@ bool ModelChoice::another(const Failure& failure) {
   if (!before_ || failure.code() != Exit::not_converged) return false;
   const std::string why =
       fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
-  voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
-  accuracy_ = before_->accuracy, cells_ = before_->cells;
-  accuracy_.ends_here(why);
-  before_.reset();
-  is_last_ = true;
+  back_to_level_before(why);
   return true;
 }
 

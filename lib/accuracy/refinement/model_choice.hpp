@@ -21,8 +21,8 @@ class ModelChoice {
   Mesh mesh();  // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
   // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too
-  // large, or it found no equilibrium: then it is that of the level before, which is the last. Says
-  // so.
+  // large, or it found no equilibrium, or a larger error than the level before: then it is that
+  // level, which is the last. Says so.
   bool another(const PathErrors& errors, const Mesh& mesh);
   bool another(const Failure& failure);
   // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept.
@@ -54,7 +54,9 @@ class ModelChoice {
   struct Level {
     Accuracy accuracy;
     std::optional<CutMesh> cells;
+    std::optional<double> percent = {};  // reached
   };
+  void back_to_level_before(const std::string& why);
   std::optional<Level> before_;  // whose errors are known
   bool is_last_ = false;
   bool at_a_point_;

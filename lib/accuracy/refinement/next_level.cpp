@@ -103,11 +103,38 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
     while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
   finer.edge *= edge, finer.step *= step;
+  // numbers of a family come in fours: shorter until they are others
+  const auto cells_of = [&](double length) {
+    Geometry geometry = chosen.written;
+    put_length(chosen, length, geometry);
+    return n_cells(geometry);
+  };
+  if (edge < 1) {
+    const double now = cells_of(chosen.level.edge);
+    while (finer.edge > chosen.finest && cells_of(finer.edge) <= now) finer.edge *= 0.97;
+  }
   finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)),
   finer.edge = std::max(finer.edge, chosen.finest);
   if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step)
     return std::nullopt;
   return finer;
+}
+
+double percent_at(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& estimates,
+                  const AccuracyLevel& level) {
+  double most = 0;
+  for (const ErrorEstimate& e : forces_judged(estimates)) {
+    const double edge = level.edge / chosen.level.edge;
+    const double step = level.step / chosen.level.step;
+    most = std::max(most, percent_with(e, edge, step, e.order));
+  }
+  return most;
+}
+
+AccuracyLevel finest_level(const ChosenLevel& chosen) {
+  AccuracyLevel level = chosen.level;
+  level.edge = chosen.finest;
+  return level;
 }
 
 std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen) {

@@ -238,6 +238,9 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
                                         of<typename T::mapped_type>(m, whole, definitions)}})}});
     refuse_others(t);
     return t;
+  } else if constexpr (Shortened<T>) {
+    return object(
+        {{"anyOf", list({types({"string", "number"}), of_struct<T>(whole, definitions)})}});
   } else
     return of_struct<T>(whole, definitions);
 }

@@ -79,6 +79,12 @@ concept Named = std::is_enum_v<T> && requires(T e) {
   names(e).size();
 };
 
+// a struct that a scalar may stand for: the value of one of its keys, the others as they are
+template <class T>
+concept Shortened = Listed<T> && requires {
+  { T::short_key } -> std::convertible_to<const char*>;
+};
+
 // a struct with rules between its keys
 template <class T>
 concept Complaining = requires(const T& t) {
@@ -208,7 +214,10 @@ std::string type_words(const Member& m) {
     return "a map of names; each value " + type_words<typename T::mapped_type>(m);
   else {
     static_assert(Listed<T>, "this member type is not one of those that base/fields.hpp names");
-    return "a map with the keys " + list_words(keys_of<T>());
+    std::string words = "a map with the keys " + list_words(keys_of<T>());
+    if constexpr (Shortened<T>)
+      words = std::string("the value of ") + T::short_key + ", or " + words;
+    return words;
   }
 }
 

@@ -244,6 +244,17 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     if (tree.kind != Kind::map) return wrong_kind();
     read_named_things(tree, path, m, out, f);
   } else {
+    if constexpr (Shortened<T>) {
+      if (tree.kind == Kind::scalar) {
+        Tree map;
+        map.kind = Kind::map;
+        map.place = tree.place;
+        map.base = tree.base;
+        map.layers = tree.layers;
+        map.map.push_back({T::short_key, tree});
+        return read_struct(map, path, out, f);
+      }
+    }
     // an empty value stands for a map without keys
     if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();
     read_struct(tree, path, out, f);

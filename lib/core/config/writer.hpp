@@ -85,6 +85,13 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
       else
         t.map.push_back({m.key, to_tree(part, path_text)});
     });
+    // in its short form where it was, so that a config keeps its text
+    if constexpr (Shortened<T>) {
+      if (t.map.size() == 1 && t.map.front().key == T::short_key) {
+        const Tree only = t.map.front().value;
+        return only;
+      }
+    }
   }
   return t;
 }

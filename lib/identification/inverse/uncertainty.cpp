@@ -184,7 +184,7 @@ void say_forces(const Voice& voice, const ParameterKnowledge& known,
   for (const ForceUncertainty& force : forces) {
     std::optional<double> cells;
     for (const ErrorEstimate& error : errors)
-      if (error.of.name == force.name) cells = error.total();
+      if (error.of.name == force.name && error.t == 1) cells = error.total();
     voice.say("{}", in_words(force, cells));
   }
   if (known.left_out.empty()) return;

@@ -1,6 +1,7 @@
 #include "scene/run/step_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanics/mesh/section.hpp"
 #include "scene/model/torque.hpp"
@@ -65,6 +66,9 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
   if (scene.contacts.size() > 1)
     for (const RigidContact& contact : scene.contacts)
       forces.of["force_" + contact.name] = force_of(whole, contact.name);
+  for (const RigidContact& contact : scene.contacts)
+    if (contact.control)
+      forces.of["travel_" + contact.name] = std::abs(whole.scalars.at("travel_" + contact.name));
   count_touching(scene, mesh, whole, forces);
   forces.of.merge(torques_of(whole, scene));
   for (const std::string& set : moved_sets(config)) {

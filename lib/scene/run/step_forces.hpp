@@ -1,6 +1,7 @@
 // The forces of a state by name, of which errors are told at every step:
 //   force             on the indenter, of several the length of their sum [N]
 //   force_<contact>   of several indenters: on each of them [N]
+//   travel_<contact>  of an indenter under force control [mm]
 //   reaction_<set>    of each set that is moved [N]
 //   torque_<name>     of each indenter that turns and each set that is turned [N mm]
 // touching: of forces on indenters, how many nodes of the whole body they come from, of a section
