@@ -12,6 +12,7 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <atomic>
 
 #include <cerrno>
 #include <chrono>
@@ -217,4 +218,14 @@ TEST_CASE("where the kernel has no filter, the answer says so and regular files 
     CHECK((!fs::exists(other) || fs::file_size(other) == 0));
   }
   fs::remove_all(folder);
+}
+
+TEST_CASE("a child process that computes for ever is stopped after its CPU time") {
+  const auto loop = [](const std::string&) {
+    for (std::atomic<int> n{0};;) ++n;
+    return std::string();
+  };
+  const ChildAnswer answer = run_in_child("", nothing, loop, 1);
+  CHECK(answer.end == ChildEnd::crashed);
+  CHECK(answer.bytes == "it was stopped after 1 s of CPU time");
 }

@@ -87,7 +87,8 @@ void leave_parent(int parent, int answer) {
 
 [[noreturn]] void run_child(int parent, int answer, const std::string& file,
                             const std::function<void()>& prepare,
-                            const std::function<std::string(const std::string&)>& work) {
+                            const std::function<std::string(const std::string&)>& work,
+                            int cpu_seconds) {
   char mode = unrestricted;
   const auto end_with = [&](char kind, const std::string& bytes) {
     try {
@@ -107,6 +108,7 @@ void leave_parent(int parent, int answer) {
   }
   // No byte into any regular file, whether the kernel has the filter or not.
   limit(RLIMIT_FSIZE, 0);
+  limit(RLIMIT_CPU, static_cast<rlim_t>(cpu_seconds));
   if (restrict_this_process()) mode = restricted;
   try {
     end_with(done, work(path));
@@ -162,7 +164,12 @@ std::string read_answer(int pipe) {
   }
 }
 
-std::string end_in_words(int status) {
+std::string end_in_words(int status, int cpu_seconds) {
+  // Both limits of RLIMIT_CPU are equal, so the kernel may send either signal.
+  const bool by_signal = WIFSIGNALED(status);
+  if (by_signal && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
+    return fmt::format("it was stopped after {} s of CPU time", cpu_seconds);
+  }
   if (WIFSIGNALED(status))
     return fmt::format("it ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   return fmt::format("it ended with code {} before it was done", WEXITSTATUS(status));
@@ -171,7 +178,8 @@ std::string end_in_words(int status) {
 }  // namespace
 
 ChildAnswer run_in_child(const std::string& file, const std::function<void()>& prepare,
-                         const std::function<std::string(const std::string& path)>& work) {
+                         const std::function<std::string(const std::string& path)>& work,
+                         int cpu_seconds) {
   const auto refuse = [](const char* action) {
     throw Failure(Exit::input, Error{{},
                                      "",
@@ -183,7 +191,7 @@ ChildAnswer run_in_child(const std::string& file, const std::function<void()>& p
   if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("no pipe can be made");
   const int parent = getpid();
   const pid_t process = fork();
-  if (process == 0) run_child(parent, ends[1], file, prepare, work);
+  if (process == 0) run_child(parent, ends[1], file, prepare, work, cpu_seconds);
   close(ends[1]);
   if (process < 0) {
     close(ends[0]);
@@ -207,7 +215,7 @@ ChildAnswer run_in_child(const std::string& file, const std::function<void()>& p
   const int status = child.wait();
   const bool is_whole = bytes.size() >= 2 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (!is_whole) {
-    answer.bytes = end_in_words(status);
+    answer.bytes = end_in_words(status, cpu_seconds);
     return answer;
   }
   answer.is_restricted = bytes[0] == restricted;

@@ -14,6 +14,8 @@
 
 namespace langer {
 
+constexpr int longest_child = 600;  // [s] of CPU time
+
 enum class ChildEnd {
   done,          // bytes: what `work` returned
   failed,        // bytes: what it threw
@@ -29,9 +31,11 @@ struct ChildAnswer {
 
 // `prepare` runs before the restriction, `work` with the path of the copy of `file` after it. Both
 // may throw std::exception. A signal that asks this program to end also ends the child, and throws
-// Failure with the signal's code where it does not end the program at once.
+// Failure with the signal's code where it does not end the program at once. A child that needs more
+// than `cpu_seconds` of CPU time is stopped: some surfaces send gmsh into an endless loop.
 ChildAnswer run_in_child(const std::string& file, const std::function<void()>& prepare,
-                         const std::function<std::string(const std::string& path)>& work);
+                         const std::function<std::string(const std::string& path)>& work,
+                         int cpu_seconds = longest_child);
 
 // Restricts the calling process for the rest of its life. Returns false if the kernel cannot.
 bool restrict_this_process();

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
@@ -39,7 +40,7 @@ const gmsh_module::Functions& load_module() {
 // `call(functions)` makes the model, in the child. `file` is what the child finds as its input.
 template <class Call>
 MshModel call_in_child(const std::string& path, const std::string& file,
-                       std::vector<std::string>& notes, const Call& call) {
+                       std::vector<std::string>& notes, int cpu_seconds, const Call& call) {
   const auto refuse = [&](const std::string& found, const std::string& hint) {
     throw Failure(Exit::input, Error{{path}, "", found, "", hint});
   };
@@ -49,7 +50,8 @@ MshModel call_in_child(const std::string& path, const std::string& file,
       [&](const std::string& input) {
         const NoTraps in_gmsh;  // it divides zero by zero where it lays out surfaces of triangles
         return packed(call(*functions, input));
-      });
+      },
+      cpu_seconds);
   if (!answer.is_restricted) {
     const std::string note =
         "this system cannot restrict what gmsh does (no seccomp): it reads a private copy of " +
@@ -68,7 +70,8 @@ MshModel call_in_child(const std::string& path, const std::string& file,
       break;
     case ChildEnd::crashed:
       refuse("gmsh cannot mesh it: " + answer.bytes,
-             "check the file in a CAD program, or try another edge");
+             "check the file in a CAD program, try another edge, or mesh it elsewhere and give the "
+             "mesh as .msh or .inp");
       break;
     case ChildEnd::done:
       break;
@@ -82,21 +85,39 @@ MshModel call_in_child(const std::string& path, const std::string& file,
   return model;
 }
 
+// CPU seconds after which meshing a closed surface is stopped. gmsh makes some ten thousand
+// tetrahedra a second; a hundred times as long is an endless loop.
+int meshing_seconds(const gmsh_module::Surface& surface, double edge) {
+  std::array<double, 3> low{};
+  std::array<double, 3> high{};
+  for (std::size_t i = 0; i < surface.X.size(); ++i) {
+    const std::size_t axis = i % 3;
+    low[axis] = i < 3 ? surface.X[i] : std::min(low[axis], surface.X[i]);
+    high[axis] = i < 3 ? surface.X[i] : std::max(high[axis], surface.X[i]);
+  }
+  const double box = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+  const double tetrahedra =
+      8.5 * box / (edge * edge * edge) + static_cast<double>(surface.corners.size());
+  return static_cast<int>(std::min<double>(longest_child, 20 + 0.01 * tetrahedra));
+}
+
 }  // namespace
 
 MshModel mesh_surface_by_gmsh(const gmsh_module::Surface& surface,
                               const gmsh_module::SolidOrder& order, const std::string& path,
                               std::vector<std::string>& notes) {
-  return call_in_child(path, "", notes, [&](const auto& gmsh, const std::string&) {
+  const auto mesh = [&](const auto& gmsh, const std::string&) {
     return gmsh.mesh_surface(surface, order);
-  });
+  };
+  return call_in_child(path, "", notes, meshing_seconds(surface, order.edge), mesh);
 }
 
 MshModel mesh_step_by_gmsh(const std::string& bytes, const gmsh_module::SolidOrder& order,
                            const std::string& path, std::vector<std::string>& notes) {
-  return call_in_child(path, bytes, notes, [&](const auto& gmsh, const std::string& input) {
+  const auto mesh = [&](const auto& gmsh, const std::string& input) {
     return gmsh.mesh_step(input, order);
-  });
+  };
+  return call_in_child(path, bytes, notes, longest_child, mesh);
 }
 
 }  // namespace langer
