@@ -26,7 +26,8 @@ std::string at_rest_in_words(const Material& material) {
   if (rest == AtRest::stiff) return "";
   std::string terms;
   for (const MatrixTerm& term : material.matrix)
-    append(terms, " + ", std::string(std::visit([](const auto& law) { return law.key); }, term));
+    append(terms, " + ",
+           std::visit([](const auto& law) { return std::string_view(law.key); }, term));
   return fmt::format("{} at rest: the shear modulus of {} is {:.3g} MPa there",
                      rest == AtRest::unstable ? "unstable" : "no stiffness",
                      text_or(terms, "its matrix"),

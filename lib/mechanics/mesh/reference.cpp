@@ -236,7 +236,7 @@ ReferenceCell tetrahedron(const CellNames& names) {
     cell.facet.push_back(nodes);
 
     const Vec3 X[3] = {corner[corners[0]], corner[corners[1]], corner[corners[2]]};
-    middle = cell.node[10 + f];
+    const Vec3 middle = cell.node[10 + f];
     std::vector<FacetPoint>& points = cell.facet_points.emplace_back();
     points.push_back({middle, 9. / 80, X[1] - X[0], X[2] - X[0]});
     for (double sign : {-1., 1.}) {
