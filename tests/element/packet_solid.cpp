@@ -27,8 +27,8 @@ TEST_CASE("packets reproduce the scalar element: force, tangent, dilatation, ene
     return m;
   };
   for (const Material& material :
-       {forces_of(ExpPowFibre{0.3, 0.8, 2.5}, LogarithmicVolume{200}),
-        forces_of(PowLinearFibre{0.4, 1.04, 3}, SimoTaylorVolume{2e3}), test::table1(30, 1e-2),
+       {with_laws(ExpPowFibre{0.3, 0.8, 2.5}, LogarithmicVolume{200}),
+        with_laws(PowLinearFibre{0.4, 1.04, 3}, SimoTaylorVolume{2e3}), test::table1(30, 1e-2),
         test::table1(60, 1e-6), test::neo_hooke(0.4, 1e-3), test::stable(75, 1e-4),
         with(Gent{0.3, 4}), with(ArrudaBoyce{0.3, 2}), with(NeoHooke{0.1}, 0.2), dispersed}) {
     REQUIRE(packet_form(material));
