@@ -66,6 +66,21 @@ foreach(page ${pages} ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md ${ROOT}/CHANGELO
   endforeach()
 endforeach()
 
+# The example of the README gives the force that the README prints.
+file(READ ${ROOT}/README.md text)
+string(REPLACE ";" "," text "${text}")
+string(REGEX MATCH "```yaml\n(mesh:[^`]*contacts:[^`]*)```" found "${text}")
+set(folder ${WORK}/readme)
+file(WRITE ${folder}/scene.yaml "${CMAKE_MATCH_1}")
+string(REGEX MATCH "solve: (force [0-9.]+ N \\+- [0-9.]+ %)" found "${text}")
+set(printed "${CMAKE_MATCH_1}")
+execute_process(COMMAND ${BIN}/langer-solve scene.yaml -o solution.h5 WORKING_DIRECTORY ${folder}
+  RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+string(FIND "${said}" "${printed}" at)
+if(NOT code EQUAL 0 OR printed STREQUAL "" OR at LESS 0)
+  message(FATAL_ERROR "README.md prints '${printed}'; its scene ended with ${code}:\n${said}")
+endif()
+
 # files that pages name, but for those that a reader makes and the libraries beside the programs
 foreach(page ${pages} ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md)
   file(READ ${page} text)
