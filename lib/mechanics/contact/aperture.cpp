@@ -14,7 +14,8 @@ std::vector<Complaint> Aperture::complaints() const {
 ShapePoint Aperture::at(const Vec3& x) const {
   const Vec3 a = direction(into);
   auto [along, rho, outward] = about({vec(face), a}, x);
-  if (rho == 0)
+  // On the axis, up to rounding, every direction across it is as good.
+  if (rho <= 1e-12 * std::abs(along))
     outward = cross(a, Vec3::Unit(std::abs(a[0]) < 0.5 ? 0 : 1))
                   .normalized();  // the whole wall is as near
   // before the core sideways and endways
