@@ -101,8 +101,8 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    int body = mesh.body[e];
-    if (mesh.body.empty()) body = 0;
+    int body = 0;
+    if (!mesh.body.empty()) body = mesh.body[e];
     const Material& law = scene.materials[body];
     const std::vector<Vec3> fibres = acting(law, scene.directions.of(e));
     std::pair<int, std::vector<long long>> key{body, {}};

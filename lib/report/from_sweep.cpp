@@ -112,8 +112,8 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
     std::istringstream order(one.text_attribute("order"));
     std::string most;
     order >> most;  // the one that would help most stands first
-    double left = without[0];
-    if (without.empty()) left = std::nan("");
+    double left = std::nan("");
+    if (!without.empty()) left = without[0];
     table.rows.push_back(
         {name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
     if (std::isfinite(deviation) && mean != 0 && !most.empty())

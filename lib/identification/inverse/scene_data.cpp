@@ -171,8 +171,8 @@ SceneData from_table(const FitData& data, const std::string& file) {
                     unit_of_column(key),
                     {},
                     {file, table.header.line, table.header.cells[at].column}};
-    std::string below = table.units[at];
-    if (table.units.empty()) below = "";
+    std::string below;
+    if (!table.units.empty()) below = table.units[at];
     const double factor = factor_of(one, unit_of(*wanted, below, quantity_of(one.unit)));
     for (const CsvRow* row : rows) {
       const auto number = table.number(row->cells[at]);

@@ -67,8 +67,8 @@ Directions make_directions(const Mesh& mesh, const std::vector<std::vector<doubl
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const std::size_t body = angles.size() > 1 ? static_cast<std::size_t>(mesh.body[e]) : 0,
                       i = cells_before[body]++;
-    Mat3 frame = mesh.frames[e];
-    if (mesh.frames.empty()) frame = Mat3(Mat3::Identity());
+    Mat3 frame = Mat3::Identity();
+    if (!mesh.frames.empty()) frame = mesh.frames[e];
     const FirstFamily& first = fields.empty() ? no_field : fields[body];
     std::vector<Vec3> a;
     for (double alpha : angles[body])

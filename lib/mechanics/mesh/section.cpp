@@ -139,8 +139,8 @@ Mesh as_plate(const Mesh& mesh) {
 
 std::vector<Facet> surface_of(const Mesh& mesh, const std::string& set) {
   const auto found = mesh.facet_sets.find(set);
-  std::vector<Facet> facets = found->second;
-  if (found == mesh.facet_sets.end()) facets = std::vector<Facet>{};
+  std::vector<Facet> facets;
+  if (found != mesh.facet_sets.end()) facets = found->second;
   if (mesh.section)
     std::erase_if(facets, [&](const Facet& facet) {
       const std::vector<int> nodes = facet_nodes(mesh, facet);

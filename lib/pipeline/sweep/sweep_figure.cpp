@@ -158,8 +158,12 @@ class Drawer {
                           fmt::format("{} in {}", figure_.y[i], unit), "names in " + y_unit_, ""});
   }
   std::string legend(std::size_t i, const std::string& member) const {
-    std::string name = figure_.legends[i];
-    if (figure_.legends.empty()) name = shown(figure_.y[i]);
+    std::string name;
+    if (figure_.legends.empty()) {
+      name = shown(figure_.y[i]);
+    } else {
+      name = figure_.legends[i];
+    }
     if (member.empty()) return name;
     const bool alone =
         figure_.y.size() == figure_.once.size() + 1;  // of those drawn for each member
