@@ -22,6 +22,7 @@ SolveConfig indentation() {
   config.mesh.emplace();
   config.mesh->geometry = IndentedBlock{{-15, 0, -15}, {30, 4, 30}, 2.5, 1, 0.3};
   config.contacts["ball"] = ball(0, 0);
+  config.supports.push_back({"bottom", {Axis::x, Axis::y, Axis::z}});
   return config;
 }
 double edge_of(const SolveConfig& config) {

@@ -44,10 +44,11 @@ std::vector<Test> kawabata() {
   return tests_of(read_table(folder + "kawabata1981_biaxial.csv"), f);
 }
 
-// parameters and R2 to the digits given
+// Parameters and R2 to the digits given: half a unit of the third digit is at most 0.5 %, and 0.35
+// % of the numbers below.
 void gives(const char* name, const Material& law, const std::vector<FreeParameter>& free,
            const std::vector<Test>& tests, const std::vector<double>& expected, double r2,
-           double digits = 2e-3) {
+           double digits = 3.5e-3) {
   CAPTURE(name);
   const FitResult f = fit({law, free, tests}, {.starts = 20});
   CHECK(f.best.converged);

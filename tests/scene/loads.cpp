@@ -124,7 +124,16 @@ TEST_CASE(
       "mesh: {geometry: {section: {of: axisymmetric, size: [2, 1], divisions: [4, 2]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
       "supports: [{on: bottom, hold: [x, y]}]\nloads: [{on: top, force: {y: -0.3}}, {on: x_max, pressure: 0.001}]\n");
-  CHECK(pressed.reaction("bottom")[1] == near(0.3, 1e-3));
+  // The side bulges, and the pressure on it then has a share along y: the pressure times the ring
+  // between the circles at the top and at the bottom.
+  const auto& u = pressed.steps.back().u;
+  double top = 0;
+  for (int node : pressed.mesh.node_sets.at("x_max")) {
+    if (pressed.mesh.X[node][1] == 1) top = 2 + u[node][0];
+  }
+  const double ring = std::numbers::pi * (top * top - 4);
+  CHECK(ring > 0.1);
+  CHECK(pressed.reaction("bottom")[1] == near(0.3 - 0.001 * ring, 1e-6));
 }
 
 TEST_CASE(

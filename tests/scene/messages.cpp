@@ -123,7 +123,7 @@ TEST_CASE("a folded cell of a file is the file's: no advice about numbers of the
   };
   const std::string folded = mesh_of_file(-0.8);
   CHECK(holds(folded, "folded"));
-  CHECK(holds(folded, "the program that made the file"));
+  CHECK(holds(folded, "the program that meshed it"));
   CHECK_FALSE(holds(folded, "radii"));
   CHECK_FALSE(holds(folded, "divisions"));
   CHECK(mesh_of_file(1) == "accepted");

@@ -4,7 +4,11 @@ copy_project()
 set(project ${WORK}/project)
 function(refused text yaml)
   file(WRITE ${project}/m.yaml "${yaml}")
-  run(2 ${BIN}/langer-mesh m.yaml -o m.h5 --quiet)
+  set(code 2)
+  if(ARGC GREATER 2)
+    set(code ${ARGV2})
+  endif()
+  run(${code} ${BIN}/langer-mesh m.yaml -o m.h5 --quiet)
   expect_said("${text}")
   if(EXISTS ${project}/m.h5)
     message(FATAL_ERROR "a refused mesh was written")
@@ -29,7 +33,7 @@ file(WRITE ${project}/folded.inp "*NODE
 9, 0, 0, 2\n10, 1, 0, 2\n11, -0.1, -0.1, 0.9\n12, 0, 1, 2
 *ELEMENT, TYPE=C3D8
 1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 5, 6, 7, 8, 9, 10, 11, 12\n")
-refused("geometry: cell 1 is folded: Jacobian -" "geometry: {file: {path: folded.inp}}\n")
+refused("folded.inp:16:1: element 2 is folded: its Jacobian is -" "geometry: {file: {path: folded.inp}}\n" 3)
 
 # scenes: nothing of the set is there, two values for one place, nothing held
 file(WRITE ${project}/m.yaml "${block}sets:\n  corner: ${corner}\n")

@@ -280,11 +280,11 @@ void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all)
     all.push_back({"dilatation", "compressible, beside scenes", "incompressible",
                    "scenes count the volume term anyway"});
   if (config.noise_model != NoiseKind::automatic && config.noise_model != NoiseKind::white)
-    all.push_back(
-        {"noise",
-         std::string("found ") + names(config.noise_model)[static_cast<int>(config.noise_model)] +
-             " in a fit with scenes",
-         "auto or white", "the noise of scenes is their standard_deviation"});
+    all.push_back({"noise",
+                   std::string("found ") +
+                       names(config.noise_model)[static_cast<int>(config.noise_model)] +
+                       " in a fit with scenes",
+                   "auto or white", "the noise of scenes is their standard_deviation"});
   if (config.leave_one_out)
     all.push_back({"leave_one_out", "true, in a fit with scenes", "false",
                    "a fit to some of the tests alone needs a config of its own"});

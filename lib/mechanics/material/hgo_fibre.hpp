@@ -26,8 +26,11 @@ struct HgoFibre {
     using std::exp;
     const T x = I4_bar - 1.0;
     const T x2 = x * x;
-    const T e = exp(c2 * x2);
-    const T W = c2 > 1e-8 ? T(c1 / (2 * c2) * (e - 1.0)) : T((0.5 * c1) * x2);
+    const T y = c2 * x2;
+    const T e = exp(y);
+    // For small y the difference exp(y) - 1 loses digits; the series of phi keeps them.
+    T W = (0.5 * c1) * x2 * (1.0 + 0.5 * y * (1.0 + y * (1.0 / 3)));
+    if (c2 > 1e-6) W = c1 / (2 * c2) * (e - 1.0);
     return {W, c1 * x * e, c1 * e * (1.0 + 2 * c2 * x2)};
   }
 };

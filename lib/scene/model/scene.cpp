@@ -351,6 +351,12 @@ void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes,
   std::vector<char> held(mesh.X.size(), 0);
   for (const Prescribed& p : nodes.prescribed)
     if (p.value == 0 && !p.turn) ++held[static_cast<std::size_t>(p.dof / 3)];
+  // Held nodes that the indenter meets first are the edge of the pressed surface, such as the top
+  // edge of a block that is held at a side. They are no candidates, and the others can give way.
+  std::vector<double> gap;
+  for (const Vec3& X : mesh.X) gap.push_back(shape_at(rigid.shape, X).gap);
+  const BoundingBox box = bounding_box(mesh.X);
+  const double met_first = *std::ranges::min_element(gap) + 1e-6 * (box.high - box.low).norm();
   double begin = 0;
   for (std::size_t i = 0; i < rigid.motion.size(); ++i) {
     const double end = rigid.motion[i].t;
@@ -361,7 +367,7 @@ void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes,
       const double t = begin + (end - begin) * k / parts;
       const Vec3 c = indenter_displacement(rigid, t);
       for (std::size_t n = 0; n < mesh.X.size(); ++n) {
-        if (held[n] < 3) continue;
+        if (held[n] < 3 || gap[n] <= met_first) continue;
         const double depth = -shape_at(rigid.shape, mesh.X[n] - c).gap;
         if (depth <= 0.01 * c.norm()) continue;
         const std::string at = fmt::format("{}.motion[{}].to", key, i);
