@@ -24,10 +24,19 @@ struct Objective {
     MatX J;
     const bool exists =
         q.residual(p, r) && r.allFinite() && (gradient.empty() || jacobian(q, p, J));
-    const double f = exists ? 0.5 * r.squaredNorm() / scale : 1e6;
-    for (std::size_t i = 0; i < gradient.size(); ++i)
-      gradient[i] = exists ? J.col(static_cast<Eigen::Index>(i)).dot(r) / scale : 0;
-    if (exists && f < lowest) lowest = f, best = p;
+    double f = 1e6;
+    if (exists) f = 0.5 * r.squaredNorm() / scale;
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      if (exists) {
+        gradient[i] = J.col(static_cast<Eigen::Index>(i)).dot(r) / scale;
+      } else {
+        gradient[i] = 0;
+      }
+    }
+    if (exists && f < lowest) {
+      lowest = f;
+      best = p;
+    }
     return f;
   }
 };
@@ -54,9 +63,12 @@ Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& fi
   };
   const auto configured = [&](nlopt::algorithm algorithm, int most) {
     nlopt::opt o(algorithm, n);
-    o.set_lower_bounds(list(f.q.lower)), o.set_upper_bounds(list(f.q.upper));
+    o.set_lower_bounds(list(f.q.lower));
+    o.set_upper_bounds(list(f.q.upper));
     o.set_min_objective(objective, &f);
-    o.set_ftol_rel(1e-13), o.set_xtol_rel(1e-12), o.set_maxeval(most);
+    o.set_ftol_rel(1e-13);
+    o.set_xtol_rel(1e-12);
+    o.set_maxeval(most);
     return o;
   };
   const auto search = [&](nlopt::opt o, const VecX& from) {
@@ -82,25 +94,29 @@ Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& fi
   Comparison c;
   c.p = f.best;
   c.cost = f.lowest * f.scale;
-  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale,
-               higher = c.cost - first.cost;
+  const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale;
+  const double higher = c.cost - first.cost;
   c.agrees = std::abs(higher) <= allowed;
   double apart = 0;
   for (Eigen::Index i = 0; i < c.p.size(); ++i)
     apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) /
                                 std::max(std::abs(first.p[i]), f.q.typical[i]));
-  const std::string same = apart < 1e-2
-                               ? fmt::format("parameters within {:.0e} of themselves", apart)
-                               : "with other parameters: these tests cannot decide between the two";
-  c.text =
-      c.agrees
-          ? fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same)
-      : higher < 0
-          ? fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed",
-                        c.cost, first.cost)
-          : fmt::format(
-                "NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here",
-                c.cost, first.cost);
+  std::string same;
+  if (apart < 1e-2) {
+    same = fmt::format("parameters within {:.0e} of themselves", apart);
+  } else {
+    same = "with other parameters: these tests cannot decide between the two";
+  }
+  if (c.agrees) {
+    c.text = fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same);
+  } else if (higher < 0) {
+    c.text = fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed",
+                         c.cost, first.cost);
+  } else {
+    c.text = fmt::format(
+        "NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here", c.cost,
+        first.cost);
+  }
   return c;
 }
 

@@ -131,7 +131,8 @@ ResidualNoise shown_noise(const FitProblem& problem, const LeastSquares& q, cons
   }
   const double size = q.size / std::sqrt(static_cast<double>(best.r.size()));
   const ResidualNoise shown = residual_noise(best.r, best.J(Eigen::all, in), curves, size);
-  return problem.further ? with_least(shown, 1) : shown;
+  if (problem.further) return with_least(shown, 1);
+  return shown;
 }
 
 // Noise, angles of symmetry and covariance. q: the problem whose least squares the fit found.
@@ -155,21 +156,28 @@ void set_covariance(const FitProblem& problem, const LeastSquares& q, FitResult&
   for (std::size_t i = 0; i < found.at.size(); ++i)
     if (found.at[i]) fit.left_out[i] = true;
   if (fit.left_out != best.at_bound) fit.noise = noise();
-  fit.covariance =
-      fit.noise.total() > 0 || std::isfinite(fit.noise.freedom)
-          ? covariance(best.J, fit.left_out, fit.noise)
-          : MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
+  if (fit.noise.total() > 0 || std::isfinite(fit.noise.freedom)) {
+    fit.covariance = covariance(best.J, fit.left_out, fit.noise);
+  } else {
+    fit.covariance =
+        MatX::Constant(best.p.size(), best.p.size(), std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   FitQuality q;
   const VecX error = model - stress;
   const double spread = (stress.array() - stress.mean()).matrix().squaredNorm();
-  q.r2 = spread > 0 ? 1 - error.squaredNorm() / spread : std::numeric_limits<double>::quiet_NaN();
+  if (spread > 0) {
+    q.r2 = 1 - error.squaredNorm() / spread;
+  } else {
+    q.r2 = std::numeric_limits<double>::quiet_NaN();
+  }
   q.mean_error_percent = q.max_error_percent = std::numeric_limits<double>::quiet_NaN();
-  if (largest > 0)
-    q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest,
+  if (largest > 0) {
+    q.mean_error_percent = 100 * error.cwiseAbs().mean() / largest;
     q.max_error_percent = 100 * error.cwiseAbs().maxCoeff() / largest;
+  }
   return q;
 }
 
@@ -213,13 +221,14 @@ double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult&
     (of_tests ? at : further) += m;
     spread += w.cwiseProduct((y.array() - y.mean()).matrix()).squaredNorm();
   }
-  return spread > 0 ? 1 - fit.best.r.squaredNorm() / spread
-                    : std::numeric_limits<double>::quiet_NaN();
+  if (spread > 0) return 1 - fit.best.r.squaredNorm() / spread;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 // NaN where there are too few values
 double aicc(double minus_two_log_likelihood, const FitProblem& problem, const NoiseModel& noise) {
-  double n = problem.further ? static_cast<double>(problem.further->measured().size()) : 0;
+  double n = 0;
+  if (problem.further) n = static_cast<double>(problem.further->measured().size());
   for (const Test& test : problem.tests) n += static_cast<double>(test.values());
   const double k = static_cast<double>(problem.free.size()) + 1 + noise.parameters();
   if (!(n > k + 1)) return std::numeric_limits<double>::quiet_NaN();
@@ -244,7 +253,8 @@ void judge(const FitProblem& problem, FitResult& fit) {
 // the residuals of further tests behind those of q, and the slope of all
 LeastSquares with_further(LeastSquares q, const std::shared_ptr<FurtherTests>& further) {
   const auto tests = std::make_shared<const LeastSquares>(q);
-  const VecX weight = further->weight(), target = weight.cwiseProduct(further->measured());
+  const VecX weight = further->weight();
+  const VecX target = weight.cwiseProduct(further->measured());
   q.size = std::hypot(tests->size, target.norm());
   q.residual = [=](const VecX& p, VecX& r) {
     VecX first, values;
@@ -284,12 +294,15 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
   if (is_viscous(material) && !test.time.empty()) point.emplace(material, a);
   std::optional<double> then;  // at rest until the first point
   const auto state_at = [&](const auto& points, std::size_t i) {
-    const PointMemory memory =
-        point ? point->begin(then ? points.time[i] - *then : 0) : PointMemory{};
+    PointMemory memory;
+    if (point) memory = point->begin(then ? points.time[i] - *then : 0);
     const PlaneState state = plane_state(material, a, test.kind, points.first[i],
                                          points.second.empty() ? 1 : points.second[i], test.shear,
                                          point ? &memory : nullptr);
-    if (state.converged && point) point->accept(state.F), then = points.time[i];
+    if (state.converged && point) {
+      point->accept(state.F);
+      then = points.time[i];
+    }
     return state;
   };
   for (std::size_t i = 0; point && i < test.before.first.size(); ++i)
@@ -334,7 +347,8 @@ namespace {
 std::vector<bool> values_at_rest(const std::vector<Test>& tests) {
   std::vector<bool> all;
   for (const Test& test : tests) {
-    const double rest = test.kind == TestKind::simple_shear ? 0 : 1;
+    double rest = 1;
+    if (test.kind == TestKind::simple_shear) rest = 0;
     for (const auto* list : {&test.stress_x, &test.stress_z})
       for (std::size_t i = 0; i < list->size(); ++i) {
         const bool second = test.second.empty() || test.second[i] == 1;
@@ -371,22 +385,29 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
     return model->residual(p, r);
   };
   q.size = model->weight.cwiseProduct(model->stress).norm();
-  q.lower.resize(n), q.upper.resize(n), q.typical.resize(n), q.start.resize(n);
+  q.lower.resize(n);
+  q.upper.resize(n);
+  q.typical.resize(n);
+  q.start.resize(n);
   const bool linear = problem.dilatation == Dilatation::incompressible &&
                       std::all_of(problem.tests.begin(), problem.tests.end(),
                                   [&](const Test& t) { return imposed(t, problem.law); });
   const auto list = chosen(model->material, problem.free);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FreeParameter& p = problem.free[static_cast<std::size_t>(i)];
-    q.start[i] = p.start, q.lower[i] = p.lower, q.upper[i] = p.upper;
+    q.start[i] = p.start;
+    q.lower[i] = p.lower;
+    q.upper[i] = p.upper;
     const double width = p.upper - p.lower;
     q.typical[i] = std::max(std::abs(p.start), std::isfinite(width) ? 0.01 * width : 0.1);
     // every energy is a sum of moduli times functions of the rest
     q.linear.push_back(linear && list[static_cast<std::size_t>(i)].unit == std::string(unit::MPa));
     q.period.push_back(period(problem, p, list[static_cast<std::size_t>(i)].unit));
-    q.lower[i] -= q.period.back(), q.upper[i] += q.period.back();
+    q.lower[i] -= q.period.back();
+    q.upper[i] += q.period.back();
   }
-  return problem.further ? with_further(std::move(q), problem.further) : q;
+  if (problem.further) return with_further(std::move(q), problem.further);
+  return q;
 }
 
 namespace {
@@ -566,11 +587,16 @@ LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
 }
 
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
-  std::size_t values =
-      problem.further ? static_cast<std::size_t>(problem.further->measured().size()) : 0;
-  double largest = problem.further ? problem.further->measured().cwiseAbs().maxCoeff() : 0;
-  for (const Test& test : problem.tests)
-    values += test.values(), largest = std::max(largest, largest_stress(test));
+  std::size_t values = 0;
+  if (problem.further) {
+    values = static_cast<std::size_t>(problem.further->measured().size());
+  }
+  double largest = 0;
+  if (problem.further) largest = problem.further->measured().cwiseAbs().maxCoeff();
+  for (const Test& test : problem.tests) {
+    values += test.values();
+    largest = std::max(largest, largest_stress(test));
+  }
   if (values < problem.free.size())
     throw Failure(Exit::input, {{},
                                 "curve",
@@ -590,9 +616,13 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   const VecX given = q.start;
   double lowest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < options.starts; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      q.start[i] =
-          k == 0 ? given[i] : drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (k == 0) {
+        q.start[i] = given[i];
+      } else {
+        q.start[i] = drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
+      }
+    }
     LeastSquaresResult one = search(problem, q, options.least_squares);
     fit.starts.row(k) << one.p.transpose(), one.cost;
     // two starts at the same optimum differ by rounding: the first stays

@@ -29,7 +29,9 @@ struct Held {
       for (Eigen::Index i = 0; i < n - 1; ++i) w[i] = v[free[static_cast<std::size_t>(i)]];
       return w;
     };
-    rest.start = part(start), rest.lower = part(all.lower), rest.upper = part(all.upper),
+    rest.start = part(start);
+    rest.lower = part(all.lower);
+    rest.upper = part(all.upper);
     rest.typical = part(all.typical);
     rest.size = all.size;
     if (!all.linear.empty())
@@ -73,7 +75,8 @@ Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX&
   } else {
     const Held held(q, i, x, from);
     LeastSquaresOptions enough;
-    enough.iterations = 60, enough.kkt = 1e-9;
+    enough.iterations = 60;
+    enough.kkt = 1e-9;
     const LeastSquaresResult found = least_squares(held.rest, enough);
     chi = 2 * found.cost;
     for (Eigen::Index k = 0, j = 0; k < from.size(); ++k)
@@ -87,31 +90,52 @@ Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX&
 void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& best, double error,
           double chi_min, double noise, double limit, int side) {
   const double half = 0.5 * q.period_of(i);
-  const double bound = half > 0   ? best[i] + side * half
-                       : side < 0 ? q.lower[i]
-                                  : q.upper[i],
-               room = std::abs(bound - best[i]);
+  double bound = 0;
+  if (half > 0) {
+    bound = best[i] + side * half;
+  } else if (side < 0) {
+    bound = q.lower[i];
+  } else {
+    bound = q.upper[i];
+  }
+  const double room = std::abs(bound - best[i]);
   double& end = side < 0 ? profile.low : profile.high;
   bool& open = side < 0 ? profile.low_open : profile.high_open;
-  double step = std::isfinite(error) && error > 0
-                    ? 0.5 * error
-                    : 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
+  double step = 0;
+  if (std::isfinite(error) && error > 0) {
+    step = 0.5 * error;
+  } else {
+    step = 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
+  }
   Point last{best[i], 0, best};
   const double root = std::sqrt(limit);
   for (int n = 0; n < 40; ++n) {
     const double left = std::abs(bound - last.x);
     if (left <= 1e-12 * (room + std::abs(bound))) break;
-    const double x = step >= left ? bound : last.x + side * step;
+    double x = 0;
+    if (step >= left) {
+      x = bound;
+    } else {
+      x = last.x + side * step;
+    }
     // the others start where the last two points lead
     Point next = profile_point(q, i, x, last.p, chi_min, noise);
-    profile.value.push_back(next.x), profile.rise.push_back(next.rise);
+    profile.value.push_back(next.x);
+    profile.rise.push_back(next.rise);
     if (next.rise >= limit) {
-      Point in = last, out = next;
+      Point in = last;
+      Point out = next;
       for (int k = 0; k < 25 && std::abs(out.x - in.x) > 1e-4 * std::abs(out.x - best[i]); ++k) {
         // the root of the rise is nearly linear
-        const double a = std::sqrt(std::max(in.rise, 0.)),
-                     b = std::isfinite(out.rise) ? std::sqrt(out.rise) : 2 * root;
-        double t = b > a ? (root - a) / (b - a) : 0.5;
+        const double a = std::sqrt(std::max(in.rise, 0.));
+        double b = 0;
+        if (std::isfinite(out.rise)) {
+          b = std::sqrt(out.rise);
+        } else {
+          b = 2 * root;
+        }
+        double t = 0.5;
+        if (b > a) t = (root - a) / (b - a);
         if (k % 3 == 2 || !std::isfinite(out.rise)) t = 0.5;
         const Point middle = profile_point(q, i, in.x + std::clamp(t, 0.05, 0.95) * (out.x - in.x),
                                            in.p, chi_min, noise);
@@ -121,8 +145,10 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
           break;
         }
       }
-      profile.value.push_back(in.x), profile.rise.push_back(in.rise);
-      end = in.x, open = false;
+      profile.value.push_back(in.x);
+      profile.rise.push_back(in.rise);
+      end = in.x;
+      open = false;
       return;
     }
     // slow rises take longer steps
@@ -130,7 +156,8 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
     if (gained < 0.15 * root) step *= 2;
     last = next;
   }
-  end = last.x, open = true;
+  end = last.x;
+  open = true;
 }
 
 }  // namespace
@@ -145,9 +172,13 @@ double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double 
 VecX sizes_of(const LeastSquares& problem, const VecX& p) {
   VecX size = p.cwiseAbs();
   for (Eigen::Index i = 0; i < p.size(); ++i)
-    if (size[i] == 0)
-      size[i] =
-          problem.period_of(i) > 0 ? problem.period_of(i) : problem.upper[i] - problem.lower[i];
+    if (size[i] == 0) {
+      if (problem.period_of(i) > 0) {
+        size[i] = problem.period_of(i);
+      } else {
+        size[i] = problem.upper[i] - problem.lower[i];
+      }
+    }
   return size;
 }
 
@@ -155,7 +186,8 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
                                 const std::vector<bool>& left_out, const ResidualNoise& noise) {
   Identifiability s;
   const auto n = p.size();
-  s.noise = noise.total(), s.size = size;
+  s.noise = noise.total();
+  s.size = size;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i)
     if (!left_out[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -185,7 +217,11 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
   for (Eigen::Index i : free) s.error[i] = std::sqrt(s.covariance(i, i));
   for (Eigen::Index i : free)
     for (Eigen::Index j : free) {
-      s.correlation(i, j) = i == j ? 1 : s.covariance(i, j) / (s.error[i] * s.error[j]);
+      if (i == j) {
+        s.correlation(i, j) = 1;
+      } else {
+        s.correlation(i, j) = s.covariance(i, j) / (s.error[i] * s.error[j]);
+      }
       if (i != j && !std::islessequal(std::abs(s.correlation(i, j)),
                                       s.correlation_worst[i]))  // of NaN too, without a trap
         s.correlation_worst[i] = std::abs(s.correlation(i, j));
@@ -196,9 +232,11 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
 std::string sloppy_words(const Identifiability& s, const std::vector<std::string>& names,
                          Eigen::Index which) {
   const VecX v = s.combination.col(which);
-  const double largest = v.cwiseAbs().maxCoeff(), sigma = s.singular[which];
+  const double largest = v.cwiseAbs().maxCoeff();
+  const double sigma = s.singular[which];
   // one standard deviation in all, or the whole size where even that is not felt
-  const double scale = sigma > 1e-6 ? 1 / sigma : 1;
+  double scale = 1;
+  if (sigma > 1e-6) scale = 1 / sigma;
   std::vector<std::string> parts;
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (std::abs(v[i]) > 0.05 * largest)
@@ -221,7 +259,8 @@ Profile profile(const LeastSquares& problem, Eigen::Index parameter, const VecX&
 
 std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error,
                               double noise, const ProfileOptions& options) {
-  const auto n = static_cast<int>(best.size()), jobs = 2 * n;
+  const auto n = static_cast<int>(best.size());
+  const auto jobs = 2 * n;
   const int threads = std::clamp(options.threads, 1, std::max(1, jobs));
   std::vector<LeastSquares> problem;
   for (int t = 0; t < threads; ++t) problem.push_back(maker());
@@ -250,8 +289,13 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
       for (std::size_t k = 0; k < side->value.size(); ++k)
         points.push_back({side->value[k], side->rise[k]});
     std::sort(points.begin(), points.end());
-    for (const auto& [x, rise] : points) one.value.push_back(x), one.rise.push_back(rise);
-    one.low = down.low, one.low_open = down.low_open, one.high = up.high,
+    for (const auto& [x, rise] : points) {
+      one.value.push_back(x);
+      one.rise.push_back(rise);
+    }
+    one.low = down.low;
+    one.low_open = down.low_open;
+    one.high = up.high;
     one.high_open = up.high_open;
     all.push_back(std::move(one));
   }
@@ -270,9 +314,11 @@ class Residuals {
     double deviation = noise.deviation;
     if (noise.removed == 0) deviation *= std::sqrt(1 - noise.rho * noise.rho);
     if (size > 0) innovation_ *= growth * deviation / size;
-    block_ = noise.rho > 0
-                 ? static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size()))))
-                 : 1;
+    if (noise.rho > 0) {
+      block_ = static_cast<Eigen::Index>(std::ceil(std::cbrt(static_cast<double>(r.size()))));
+    } else {
+      block_ = 1;
+    }
   }
 
   VecX draw(Random& random) const {
@@ -281,11 +327,16 @@ class Residuals {
     Eigen::Index at = 0, from = 0, left = 0;
     for (Eigen::Index n : noise_.curves) {
       for (Eigen::Index i = 0; i < n; ++i, ++at, ++from, --left) {
-        if (left == 0)
-          left = block_,
+        if (left == 0) {
+          left = block_;
           from = static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(m)));
+        }
         const double u = innovation_[from % m];
-        e[at] = i == 0 ? u / std::sqrt(1 - noise_.rho * noise_.rho) : noise_.rho * e[at - 1] + u;
+        if (i == 0) {
+          e[at] = u / std::sqrt(1 - noise_.rho * noise_.rho);
+        } else {
+          e[at] = noise_.rho * e[at - 1] + u;
+        }
       }
     }
     if (noise_.removed > 0) e = innovations(e, noise_.curves, noise_.removed);
@@ -296,7 +347,8 @@ class Residuals {
 
  private:
   VecX correlated(const VecX& r) const {
-    return noise_.removed > 0 ? from_innovations(r, noise_.curves, noise_.removed) : r;
+    if (noise_.removed > 0) return from_innovations(r, noise_.curves, noise_.removed);
+    return r;
   }
 
   const ResidualNoise& noise_;  // before innovation_, whose beginning needs it
@@ -340,7 +392,8 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
           return true;
         };
         LeastSquaresOptions enough;
-        enough.iterations = 100, enough.kkt = 1e-9;
+        enough.iterations = 100;
+        enough.kkt = 1e-9;
         found[w] = least_squares(q, enough);
       },
       [&](int worker, int sample) {
@@ -365,7 +418,8 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
     std::vector<double> x(good.size());
     for (std::size_t i = 0; i < good.size(); ++i) x[i] = good[i][j];
     std::sort(x.begin(), x.end());
-    const double spread = options.spread.size() ? options.spread[j] : 1;
+    double spread = 1;
+    if (options.spread.size()) spread = options.spread[j];
     const auto spread_out = [&](double x) {
       const double far = best[j] + spread * (x - best[j]);
       return problem[0].period_of(j) > 0
@@ -374,7 +428,7 @@ Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualN
     };
     // samples that end at a bound or an axis of symmetry leave out an estimate that stopped a
     // rounding before it
-    result.low[j] = std::min(spread_out(quantile(x, 0.025)), best[j]),
+    result.low[j] = std::min(spread_out(quantile(x, 0.025)), best[j]);
     result.high[j] = std::max(spread_out(quantile(x, 0.975)), best[j]);
   }
   return result;

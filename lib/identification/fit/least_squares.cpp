@@ -42,7 +42,8 @@ double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const M
 // curvature: of the residual, beyond J^T J
 VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J, const VecX& D,
                  const VecX& curvature, double mu) {
-  const Eigen::Index m = J.rows(), n = J.cols();
+  const Eigen::Index m = J.rows();
+  const Eigen::Index n = J.cols();
   // in units of D, so that a stiff and a soft parameter count alike
   MatX A(m + n, n);
   A.topRows(m) = J * D.cwiseInverse().asDiagonal();
@@ -55,7 +56,10 @@ VecX damped_step(const LeastSquares& q, const VecX& p, const VecX& r, const MatX
 
 // r . d2r/dp_i^2 where it is positive: what Gauss and Newton leave out
 VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
-  VecX curvature = VecX::Zero(p.size()), moved = p, above, below;
+  VecX curvature = VecX::Zero(p.size());
+  VecX moved = p;
+  VecX above;
+  VecX below;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) continue;
     const double h = std::min(
@@ -76,7 +80,10 @@ VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
 // become free to lower it.
 VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
   const double rounding = 1e-13 * q.size * q.size;
-  VecX best = p, moved = p, other, level = p;
+  VecX best = p;
+  VecX moved = p;
+  VecX other;
+  VecX level = p;
   MatX J_other;
   double most = rounding;
   for (Eigen::Index i = 0; i < p.size(); ++i) {
@@ -87,9 +94,16 @@ VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
                                                            : -q.size * q.size;
     };
     for (double part : {1e-3, -1e-3, 1e-2, -1e-2, 1e-1, -1e-1})
-      if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most)
-        most = gained, best = moved;
-    const double width = q.period_of(i) > 0 ? q.period_of(i) : q.upper[i] - q.lower[i];
+      if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most) {
+        most = gained;
+        best = moved;
+      }
+    double width = 0;
+    if (q.period_of(i) > 0) {
+      width = q.period_of(i);
+    } else {
+      width = q.upper[i] - q.lower[i];
+    }
     for (int k = 1; k < 8 && std::isfinite(width) && level == p; ++k)
       if (std::abs(gain_at(q.lower[i] + k * width / 8)) <= rounding &&
           jacobian(q, moved, J_other) && kkt_residual(q, moved, other, J_other) > 1e-6)
@@ -103,7 +117,8 @@ VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
 
 bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
   if (q.slope) return q.slope(p, J) && J.allFinite();
-  VecX p_moved = p, r;
+  VecX p_moved = p;
+  VecX r;
   const auto at = [&](Eigen::Index i, double x, VecX& out) {
     p_moved[i] = x;
     const bool good = q.residual(p_moved, out) && out.allFinite();
@@ -118,9 +133,15 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     if (!q.linear.empty() && q.linear[static_cast<std::size_t>(i)]) {
       // any step is exact: a large one, into the box
-      const double above = q.upper[i] - p[i], below = p[i] - q.lower[i],
-                   size = std::max(std::abs(p[i]), q.typical[i]);
-      const double h = above >= below ? std::min(size, above) : -std::min(size, below);
+      const double above = q.upper[i] - p[i];
+      const double below = p[i] - q.lower[i];
+      const double size = std::max(std::abs(p[i]), q.typical[i]);
+      double h = 0;
+      if (above >= below) {
+        h = std::min(size, above);
+      } else {
+        h = -std::min(size, below);
+      }
       if (base.size() == 0 && !at(i, p[i], base)) return false;
       if (h != 0 && !at(i, p[i] + h, value)) return false;
       column(i, h != 0 ? VecX((value - base) / h) : VecX::Zero(base.size()));
@@ -128,7 +149,8 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
     }
     // h^4 against eps/h
     double h = std::pow(eps, 0.2) * std::max(std::abs(p[i]), q.typical[i]);
-    const double below = p[i] - q.lower[i], above = q.upper[i] - p[i];
+    const double below = p[i] - q.lower[i];
+    const double above = q.upper[i] - p[i];
     if (below + above == 0) {
       if (!at(i, p[i], value)) return false;
       column(i, VecX::Zero(value.size()));
@@ -150,9 +172,10 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
       const double w = weights[-first][k];
       if (w == 0) continue;
       if (!at(i, p[i] + (first + k) * h, value)) return false;
-      if (first_value.size() == 0)
-        first_value = value, slope = VecX::Zero(value.size());
-      else
+      if (first_value.size() == 0) {
+        first_value = value;
+        slope = VecX::Zero(value.size());
+      } else
         slope += w * (value - first_value);
     }
     column(i, slope / (12 * h));
@@ -202,7 +225,8 @@ class LevenbergMarquardt {
       s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
       if (s_.kkt <= options.kkt) {
         if (moved_aside()) continue;
-        s_.converged = true, s_.why = "optimal";
+        s_.converged = true;
+        s_.why = "optimal";
         return;
       }
       D_ = D_.cwiseMax(s_.J.colwise().norm().transpose());
@@ -214,12 +238,13 @@ class LevenbergMarquardt {
       while (!accepted && mu_ < 1e12 && !small_) accepted = step(options.step);
       if (small_) {
         if (moved_aside()) continue;
-        s_.converged = true, s_.why = "optimal within the step asked for";
+        s_.converged = true;
+        s_.why = "optimal within the step asked for";
         return;
       }
       if (options.step > 0 && (!accepted || stalled_ >= stalled_steps_) &&
           is_known_within_errors()) {
-        s_.converged = true,
+        s_.converged = true;
         s_.why = "optimal to a thirtieth of the standard errors; the model has kinks";
         return;
       }
@@ -252,17 +277,23 @@ class LevenbergMarquardt {
     VecX r;
     const bool exists = q_.residual(p, r) && r.allFinite();
     //   |r_old|^2 - |r_new|^2 = (r_old - r_new).(r_old + r_new), which keeps its digits near the optimum
-    const double gained = exists ? 0.5 * (s_.r - r).dot(s_.r + r) : -1;
+    double gained = -1;
+    if (exists) gained = 0.5 * (s_.r - r).dot(s_.r + r);
     if (exists && predicted > 0 && gained > 0)
       if (MatX J = s_.J; jacobian(q_, p, J)) {
         mu_ = std::max(
             1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
         growth_ = 2;
-        stalled_ = gained < stalled_gain_ * s_.cost ? stalled_ + 1 : 0;
+        if (gained < stalled_gain_ * s_.cost) {
+          stalled_ = stalled_ + 1;
+        } else {
+          stalled_ = 0;
+        }
         take(p, r, J);
         return true;
       }
-    mu_ = std::max(mu_, 1e-15) * growth_, growth_ *= 2;
+    mu_ = std::max(mu_, 1e-15) * growth_;
+    growth_ *= 2;
     return false;
   }
 
@@ -282,12 +313,17 @@ class LevenbergMarquardt {
     MatX J;
     if (p == s_.p || !q_.residual(p, r) || !jacobian(q_, p, J)) return false;
     take(p, r, J);
-    D_.setZero(), mu_ = 1e-3, growth_ = 2, small_ = false;
+    D_.setZero();
+    mu_ = 1e-3;
+    growth_ = 2;
+    small_ = false;
     return true;
   }
 
   void take(const VecX& p, const VecX& r, const MatX& J) {
-    s_.p = p, s_.r = r, s_.J = J;
+    s_.p = p;
+    s_.r = r;
+    s_.J = J;
     s_.cost = 0.5 * r.squaredNorm();
   }
 

@@ -35,7 +35,8 @@ struct LeastSquares {
       period;  // of parameters that come again, such as angles; 0 for the others; empty: none
 
   double period_of(Eigen::Index i) const {
-    return period.empty() ? 0 : period[static_cast<std::size_t>(i)];
+    if (period.empty()) return 0;
+    return period[static_cast<std::size_t>(i)];
   }
 };
 

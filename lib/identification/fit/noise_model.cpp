@@ -144,7 +144,11 @@ NoiseModel most_likely_noise(const VecX& e, const VecX& measured,
   const auto value = [&](double x, NoiseModel& noise) {
     noise.kind = kind;
     noise.reference = reference;
-    noise.share = x <= end ? largest_share : 1 - std::pow(10, x);
+    if (x <= end) {
+      noise.share = largest_share;
+    } else {
+      noise.share = 1 - std::pow(10, x);
+    }
     return with_best_correlation(e, measured, curves, rest, noise);
   };
   for (int k = 1; k <= steps; ++k) {

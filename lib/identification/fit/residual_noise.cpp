@@ -42,7 +42,8 @@ double correlated_square(const VecX& v, const Curves& curves, double rho) {
 
 // R A
 MatX correlated(const MatX& A, const Curves& curves, double rho) {
-  MatX forward = A, backward = A;
+  MatX forward = A;
+  MatX backward = A;
   Eigen::Index at = 0;
   for (Eigen::Index n : curves) {
     for (Eigen::Index i = 1; i < n; ++i) forward.row(at + i) += rho * forward.row(at + i - 1);
@@ -89,7 +90,8 @@ Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double
   const auto free = static_cast<double>(r.size() - U.cols());
   const MatX W = innovations(U, curves, rho);
   const VecX y = innovations(r, curves, rho);
-  double rest = y.squaredNorm(), log_volume = 0;
+  double rest = y.squaredNorm();
+  double log_volume = 0;
   if (U.cols() > 0) {
     const Qr qr(W);
     const VecX z = qr.Q_transposed_times(y);
@@ -112,23 +114,31 @@ double highest(F f, double high) {
   int best = 0;
   double value = f(0.);
   for (int k = 1; k <= steps; ++k)
-    if (const double x = f(at(k)); x > value) value = x, best = k;
-  double a = at(std::max(0, best - 1)), b = at(std::min(steps, best + 1));
+    if (const double x = f(at(k)); x > value) {
+      value = x;
+      best = k;
+    }
+  double a = at(std::max(0, best - 1));
+  double b = at(std::min(steps, best + 1));
   constexpr double golden = 0.6180339887498949;
   for (int k = 0; k < 40 && b - a > 1e-9; ++k) {
-    const double c = b - golden * (b - a), d = a + golden * (b - a);
+    const double c = b - golden * (b - a);
+    const double d = a + golden * (b - a);
     (f(c) >= f(d) ? b : a) = f(c) >= f(d) ? d : c;
   }
   const double inside = 0.5 * (a + b);
-  return f(inside) > value ? inside : at(best);
+  if (f(inside) > value) return inside;
+  return at(best);
 }
 
 double effective_values(const Curves& curves, double rho) {
   double sum = 0;
   for (Eigen::Index n : curves) {
     double factor = 1, power = 1;
-    for (Eigen::Index k = 1; k < n && power > 1e-17; ++k)
-      power *= rho, factor += 2 * (1 - static_cast<double>(k) / static_cast<double>(n)) * power;
+    for (Eigen::Index k = 1; k < n && power > 1e-17; ++k) {
+      power *= rho;
+      factor += 2 * (1 - static_cast<double>(k) / static_cast<double>(n)) * power;
+    }
     sum += static_cast<double>(n) / factor;
   }
   return sum;
@@ -229,14 +239,17 @@ double most_likely_correlation(const VecX& z, const std::vector<Eigen::Index>& c
 
 ResidualNoise white_noise(double deviation, Eigen::Index values) {
   ResidualNoise noise;
-  noise.curves = {values}, noise.white = deviation, noise.effective = static_cast<double>(values);
+  noise.curves = {values};
+  noise.white = deviation;
+  noise.effective = static_cast<double>(values);
   return noise;
 }
 
 ResidualNoise residual_noise(const VecX& r, const MatX& J, const std::vector<Eigen::Index>& curves,
                              double size) {
   ResidualNoise noise;
-  noise.curves = curves, noise.effective = static_cast<double>(r.size());
+  noise.curves = curves;
+  noise.effective = static_cast<double>(r.size());
   const MatX U = column_space(J);
   const Eigen::Index free = r.size() - U.cols();
   if (free <= 0) return noise;
@@ -317,9 +330,13 @@ MatX covariance(const MatX& J, const std::vector<bool>& left_out, const Residual
   // columns are known to about 1e-11 (differences of fourth order): a smaller singular value is not
   // distinguishable from 0
   const double smallest = 1e-10 * sv[0];
-  VecX inverse = VecX::Zero(sv.size()), undetermined = VecX::Ones(k);
+  VecX inverse = VecX::Zero(sv.size());
+  VecX undetermined = VecX::Ones(k);
   for (Eigen::Index c = 0; c < sv.size(); ++c)
-    if (sv[c] > smallest) inverse[c] = 1 / sv[c], undetermined -= of.V.col(c).cwiseAbs2();
+    if (sv[c] > smallest) {
+      inverse[c] = 1 / sv[c];
+      undetermined -= of.V.col(c).cwiseAbs2();
+    }
   const MatX P = of.U * inverse.asDiagonal() * of.V.transpose();  // (m, k): parameters are P^T e
   const MatX VP =
       noise.deviation * noise.deviation * correlated(P, noise) + noise.white * noise.white * P;

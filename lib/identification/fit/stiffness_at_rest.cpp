@@ -37,7 +37,11 @@ bool raise(FitProblem& problem, const VecX& p, Eigen::Index i, double least) {
   if (!(std::abs(per) > 1e-9) || !std::isfinite(per)) return false;
   double& bound = per > 0 ? free.lower : free.upper;
   bound = least / per;
-  free.start = per > 0 ? std::max(free.start, bound) : std::min(free.start, bound);
+  if (per > 0) {
+    free.start = std::max(free.start, bound);
+  } else {
+    free.start = std::min(free.start, bound);
+  }
   return free.lower < free.upper;
 }
 
@@ -49,7 +53,8 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
   // in units of the residuals of q, which noise that is not white leaves with another size
   const double size = fit.residual.norm();
   if (size > 0) noise *= fit.best.r.norm() / size;
-  const double per = effect(problem, p, i), mu = shear_modulus(fit.material);
+  const double per = effect(problem, p, i);
+  const double mu = shear_modulus(fit.material);
   if (!(std::abs(per) > 1e-9)) return inf;
   const auto value = [&](double more) {
     return p[i] + more / per;
@@ -57,8 +62,12 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
   const auto inside = [&](double more) {
     return value(more) >= q.lower[i] && value(more) <= q.upper[i];
   };
-  double in = 0, out = least;
-  while (inside(out) && profile_rise(q, i, value(out), p, noise) < limit) in = out, out *= 2;
+  double in = 0;
+  double out = least;
+  while (inside(out) && profile_rise(q, i, value(out), p, noise) < limit) {
+    in = out;
+    out *= 2;
+  }
   if (!inside(out)) return inf;
   for (int k = 0; k < 12; ++k) {
     const double middle = 0.5 * (in + out);
@@ -70,17 +79,20 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
 }  // namespace
 
 std::string in_words(const StiffnessAtRest& s) {
-  const std::string reach = std::isfinite(s.allowed)
-                                ? fmt::format("allow up to {:.3g} MPa (95 %)", s.allowed)
-                                : "allow any";
-  const std::string cost =
-      s.taken > s.allowed * (1 + 1e-9)
-          ? fmt::format(
-                "more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
-                "the tests near rest",
-                s.error_before, s.error_after)
-          : fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before,
-                        s.error_after);
+  std::string reach = "allow any";
+  if (std::isfinite(s.allowed)) {
+    reach = fmt::format("allow up to {:.3g} MPa (95 %)", s.allowed);
+  }
+  std::string cost;
+  if (s.taken > s.allowed * (1 + 1e-9)) {
+    cost = fmt::format(
+        "more than they allow, the mean error goes from {:.3g} to {:.3g} %: this law does not follow "
+        "the tests near rest",
+        s.error_before, s.error_after);
+  } else {
+    cost =
+        fmt::format("the mean error goes from {:.3g} to {:.3g} %", s.error_before, s.error_after);
+  }
   return fmt::format(
       "the tests do not determine the shear modulus at rest: they give {:.3g} MPa and {}; {:.3g} MPa is used, the least that tests with a "
       "noise of {:.3g} MPa can distinguish from 0, since a body without stiffness at rest cannot be solved ({}). Forces at small strains depend on it",
@@ -90,7 +102,8 @@ std::string in_words(const StiffnessAtRest& s) {
 double residual_noise(const FitProblem& problem, const FitResult& fit, double part) {
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
-  const auto m = fit.best.r.size(), n = fit.best.p.size();
+  const auto m = fit.best.r.size();
+  const auto n = fit.best.p.size();
   return std::max(part * largest,
                   m > n ? fit.residual.norm() / std::sqrt(static_cast<double>(m - n)) : 0);
 }
@@ -103,7 +116,8 @@ double least_shear_modulus(const FitProblem& problem, double noise) {
     if (model_stress(unit_matrix, test, problem.dilatation, stress.data()) && stress.allFinite())
       sum += test.weight * test.weight * stress.squaredNorm();
   }
-  return sum > 0 ? noise / std::sqrt(sum) : inf;
+  if (sum > 0) return noise / std::sqrt(sum);
+  return inf;
 }
 
 std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& fit,
@@ -129,18 +143,23 @@ std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& f
       if (!raise(one, p, static_cast<Eigen::Index>(i), s.least)) break;
       FitResult next = langer::fit(one, options);
       if (!next.best.converged) break;
-      p = next.best.p, found = std::move(next);
+      p = next.best.p;
+      found = std::move(next);
       if (shear_modulus(found->material) >= s.least * (1 - 1e-9)) break;
     }
     if (!found || shear_modulus(found->material) < s.least * (1 - 1e-9)) continue;
-    if (!best || found->best.cost < best->best.cost)
-      best = std::move(found), raised = one, by = static_cast<Eigen::Index>(i);
+    if (!best || found->best.cost < best->best.cost) {
+      best = std::move(found);
+      raised = one;
+      by = static_cast<Eigen::Index>(i);
+    }
   }
   if (!best) return std::nullopt;
   s.allowed = allowed_by(problem, fit, by, s.least, s.noise);
   s.key = problem.free[static_cast<std::size_t>(by)].key;
   s.taken = shear_modulus(best->material);
-  s.error_before = fit.quality.mean_error_percent, s.error_after = best->quality.mean_error_percent;
+  s.error_before = fit.quality.mean_error_percent;
+  s.error_after = best->quality.mean_error_percent;
   // the kinds of noise that were compared before; of the one chosen, what it makes of this fit
   std::vector<NoiseCandidate> candidates = fit.noise_candidates;
   for (NoiseCandidate& one : candidates) {

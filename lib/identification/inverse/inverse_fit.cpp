@@ -19,8 +19,10 @@ constexpr double draft_factor = 2;  // of the cells' length
 // fits end where their steps are as small: the runs themselves are not more exact
 FitOptions options_of(const FitConfig& config, double step) {
   FitOptions options{config.searches(), static_cast<unsigned>(config.seed), {}};
-  options.least_squares.iterations = 60, options.least_squares.kkt = 1e-11;
-  options.least_squares.step = step, options.least_squares.good_enough = 1e-5;
+  options.least_squares.iterations = 60;
+  options.least_squares.kkt = 1e-11;
+  options.least_squares.step = step;
+  options.least_squares.good_enough = 1e-5;
   return options;
 }
 

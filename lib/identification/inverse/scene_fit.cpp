@@ -60,7 +60,8 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
         paths[i] = cache_->keep(keys[i], std::move(path));
       },
       [](int, int) {});
-  runs_ += static_cast<int>(missing.size()), seconds_ += cpu_seconds() - begun;
+  runs_ += static_cast<int>(missing.size());
+  seconds_ += cpu_seconds() - begun;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (paths[i]->complete) solvable_[wanted[i].scene] = true;
   return paths;
@@ -85,21 +86,22 @@ double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const 
         number && number->data == test.data && number->of == of)
       return p[static_cast<Eigen::Index>(i)];
   const FitData& data = config_.data[test.data];
-  return of == SceneNumber::Of::touch_offset   ? data.touch_offset
-         : of == SceneNumber::Of::force_offset ? data.force_offset
-                                               : data.compliance;
+  if (of == SceneNumber::Of::touch_offset) return data.touch_offset;
+  if (of == SceneNumber::Of::force_offset) return data.force_offset;
+  return data.compliance;
 }
 
 bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
                       Read what, VecX& out) const {
-  const double touch = measured_by(test, SceneNumber::Of::touch_offset, p),
-               force = measured_by(test, SceneNumber::Of::force_offset, p),
-               compliance = measured_by(test, SceneNumber::Of::compliance, p);
+  const double touch = measured_by(test, SceneNumber::Of::touch_offset, p);
+  const double force = measured_by(test, SceneNumber::Of::force_offset, p);
+  const double compliance = measured_by(test, SceneNumber::Of::compliance, p);
   const auto rows = static_cast<Eigen::Index>(test.s.size());
   out = VecX::Zero(test.measured.size());
   for (Eigen::Index row = 0; row < rows; ++row) {
     std::size_t piece = test.stretch[static_cast<std::size_t>(row)];
-    const double read = compliance != 0 ? test.measured[test.force + row] - force : 0;
+    double read = 0;
+    if (compliance != 0) read = test.measured[test.force + row] - force;
     const double s = test.s[static_cast<std::size_t>(row)] - touch - compliance * read;
     const auto t = test.over.find(s, piece, beyond_path);
     const bool before = piece == 0 && (s - test.over.s[0]) * (test.over.s[1] - test.over.s[0]) <= 0;
@@ -113,7 +115,11 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
       double sum = 0;
       for (const auto& [state, weight] : what == Read::rate ? place.rate : place.value)
         sum += weight * of(state, column);
-      out[curve.first + row] = what == Read::rate ? sum * test.over.rate(piece) : sum;
+      if (what == Read::rate) {
+        out[curve.first + row] = sum * test.over.rate(piece);
+      } else {
+        out[curve.first + row] = sum;
+      }
     }
   }
   return true;
@@ -212,8 +218,8 @@ void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, Mat
         continue;  // the model is not there either
       auto column = J.block(first_[k], static_cast<Eigen::Index>(i), rate.size(), 1);
       const auto rows = static_cast<Eigen::Index>(test.s.size());
-      const double compliance = measured_by(test, SceneNumber::Of::compliance, p),
-                   force = measured_by(test, SceneNumber::Of::force_offset, p);
+      const double compliance = measured_by(test, SceneNumber::Of::compliance, p);
+      const double force = measured_by(test, SceneNumber::Of::force_offset, p);
       switch (numbers_[i].measured->of) {
         case SceneNumber::Of::touch_offset:
           column = -rate;
@@ -273,10 +279,10 @@ std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
                       {},
                       test.places};
       const auto rows = static_cast<Eigen::Index>(test.s.size());
-      const VecX measured = test.measured.segment(curve.first, rows),
-                 model = values.segment(first_[i] + curve.first, rows);
-      one.measured.assign(measured.data(), measured.data() + rows),
-          one.model.assign(model.data(), model.data() + rows);
+      const VecX measured = test.measured.segment(curve.first, rows);
+      const VecX model = values.segment(first_[i] + curve.first, rows);
+      one.measured.assign(measured.data(), measured.data() + rows);
+      one.model.assign(model.data(), model.data() + rows);
       for (Vec3& place : one.places)
         if (std::isnan(place[1])) place[1] = top_[test.run];
       all.push_back(std::move(one));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "identification/inverse/refuse.hpp"
 
@@ -18,8 +19,12 @@ namespace {
 Abscissa sampled(std::string key, const std::vector<double>& kinks,
                  const std::function<double(double)>& s) {
   Abscissa over;
-  over.key = std::move(key), over.unit = unit_of_column(over.key);
-  for (double t : kinks) over.t.push_back(t), over.s.push_back(s(t));
+  over.key = std::move(key);
+  over.unit = unit_of_column(over.key);
+  for (double t : kinks) {
+    over.t.push_back(t);
+    over.s.push_back(s(t));
+  }
   return over;
 }
 
@@ -42,7 +47,8 @@ const std::pair<const std::string, ContactConfig>* indenter_of(const FitData& da
                                                                const SolveConfig& scene) {
   if (scene.contacts.empty()) return nullptr;
   const auto named = scene.contacts.find(data.on);
-  return named != scene.contacts.end() ? &*named : &*scene.contacts.begin();
+  if (named != scene.contacts.end()) return &*named;
+  return &*scene.contacts.begin();
 }
 
 // a file of an indenter that is pushed gives its travel over the force
@@ -120,7 +126,7 @@ std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& 
   for (const auto& [name, nodes] : mesh.node_sets) known.push_back(name);
   const std::string near = nearest(data.on, known);
   refuse_scene(where, at + "on", "the scene has no set \"" + data.on + "\"",
-               "one of " + list_words(known), near.empty() ? "" : "did you mean \"" + near + "\"?");
+               "one of " + list_words(known), did_you_mean(near));
 }
 
 Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene,
@@ -169,7 +175,8 @@ std::vector<std::size_t> observed(const FitData& data, const std::string& at,
                                   const FindPlace& where, std::vector<Observation>& observations) {
   Observation one;
   if (column.key == "u_ind") {
-    one.of = Observation::Of::travel, one.contact = indenter_of(data, run.config())->first;
+    one.of = Observation::Of::travel;
+    one.contact = indenter_of(data, run.config())->first;
   } else if (column.key == "force") {
     one = force_of(data, at, run.config(), where);
   } else {
@@ -213,11 +220,13 @@ std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double s
   double most = 0;
   for (double one : s) most = std::max(most, std::abs(one));
   for (std::size_t k = piece; k + 1 < t.size(); ++k) {
-    const double a = s[k], b = s[k + 1];
+    const double a = s[k];
+    const double b = s[k + 1];
     if (a == b) continue;
-    const bool last = k + 2 == t.size(), first = k == 0;
-    const double low = std::min(a, b) - (last || first ? slack : 1e-9) * most,
-                 high = std::max(a, b) + (last || first ? slack : 1e-9) * most;
+    const bool last = k + 2 == t.size();
+    const bool first = k == 0;
+    const double low = std::min(a, b) - (last || first ? slack : 1e-9) * most;
+    const double high = std::max(a, b) + (last || first ? slack : 1e-9) * most;
     if (wanted < low || wanted > high) continue;
     piece = k;
     return t[k] + (wanted - a) / (b - a) * (t[k + 1] - t[k]);
@@ -229,7 +238,8 @@ std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double s
 // is left out at its end half of it.
 std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
                                              double slack) const {
-  const std::size_t n = values.size(), pieces = t.size() - 1;
+  const std::size_t n = values.size();
+  const std::size_t pieces = t.size() - 1;
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto has = [&](std::size_t k, double value) {
     std::size_t found = k;
@@ -243,12 +253,20 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
       if (!has(k, values[i])) continue;
       double left_out = 0;
       for (std::size_t j = k + 1; j-- > 0;) {
-        double so_far = i == 0 ? (j == 0 ? left_out : never) : cost[j] + left_out;
+        double so_far = 0;
+        if (i == 0) {
+          so_far = (j == 0 ? left_out : never);
+        } else {
+          so_far = cost[j] + left_out;
+        }
         if (i == 0 && k > 0 && j == 0) so_far += 0.5 * std::abs(s[1] - s[0]);
         if (i > 0 && j == k)
           so_far += std::max(0.0, (values[i - 1] - values[i]) * (s[k + 1] > s[k] ? 1 : -1));
         if (i > 0 && j < k) so_far += 0.5 * std::abs(s[j + 1] - values[i - 1]);
-        if (so_far < next[k]) next[k] = so_far, from[i][k] = j;
+        if (so_far < next[k]) {
+          next[k] = so_far;
+          from[i][k] = j;
+        }
         if (j < k) left_out += 0.5 * std::abs(s[j + 1] - s[j]);
       }
     }
@@ -260,9 +278,12 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
     }
   }
   std::vector<std::size_t> out(n, 0);
-  std::size_t k =
-      n == 0 ? 0
-             : static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  std::size_t k = 0;
+  if (n == 0) {
+    k = 0;
+  } else {
+    k = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  }
   for (std::size_t i = n; i-- > 0; k = from[i][k]) out[i] = k;
   return out;
 }
@@ -292,10 +313,16 @@ SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& fil
                      std::vector<Observation>& observations) {
   const std::string at = fmt::format("data[{}].", item);
   SceneTest test;
-  test.name = file.name, test.data = item, test.over = abscissa_of(data, item, run.config(), where);
+  test.name = file.name;
+  test.data = item;
+  test.over = abscissa_of(data, item, run.config(), where);
   test.kinks = kinks_of(run.config());
   const SceneColumn* over = file.find(test.over.key);
-  test.s = over ? over->values : std::vector<double>(file.rows.size(), 1);
+  if (over) {
+    test.s = over->values;
+  } else {
+    test.s = std::vector<double>(file.rows.size(), 1);
+  }
   std::vector<double> own;
   for (std::size_t i = 0; i < test.s.size(); ++i)
     own.push_back(own_travel(data, file, i, test.s[i]));
@@ -373,10 +400,13 @@ PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kink
     if (kink <= at - 1e-9 && kink < 1 - 1e-9) begin = std::max(begin, kink);
     if (kink >= at - 1e-9) end = std::min(end, kink);
   }
-  Eigen::Index first = -1, last = n - 1;  // of the states between those kinks, both included
+  // of the states between those kinks, both included
+  Eigen::Index first = -1;
+  Eigen::Index last = n - 1;
   while (first + 1 < n && time(first) < begin - 1e-9) ++first;
   while (last > 0 && time(last - 1) >= end - 1e-9) --last;
-  const double longest = n > 0 ? time(last) - time(last - 1) : 0;
+  double longest = 0;
+  if (n > 0) longest = time(last) - time(last - 1);
   // Trial offsets may lead a little beyond the end: the last piece continues for 1.5 increments.
   if (n == 0 || at > time(last) + 1.5 * longest) {
     found.exists = false;

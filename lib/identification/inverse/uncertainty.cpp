@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/text.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
@@ -20,9 +21,10 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const double variance = file.fit->covariance(at, at);
-    if (std::isfinite(variance) && variance > 0)
-      kept.push_back(at), known.names.push_back(fitted[i].name);
-    else
+    if (std::isfinite(variance) && variance > 0) {
+      kept.push_back(at);
+      known.names.push_back(fitted[i].name);
+    } else
       known.left_out.push_back(fitted[i].name);
   }
   const auto n = static_cast<Eigen::Index>(kept.size());
@@ -42,7 +44,10 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
         for (const MaterialParameter& of : numbers)
           if (tie.key == p.key && tie.of == of.key && of.name == name) row[j] = tie.factor;
     }
-    if (!row.isZero(0)) known.keys.push_back(p.key), rows.push_back(row);
+    if (!row.isZero(0)) {
+      known.keys.push_back(p.key);
+      rows.push_back(row);
+    }
   }
   known.follow.resize(static_cast<Eigen::Index>(rows.size()), n);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -54,8 +59,8 @@ ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& materi
                                   const Run::Where& where) {
   if (config.uncertainty.value_or(UncertaintyBy::none) == UncertaintyBy::none) return {};
   const bool holds_a_fit = std::filesystem::path(material_file).extension() == ".h5";
-  const ParameterKnowledge known =
-      holds_a_fit ? knowledge_of(read_material(material_file)) : ParameterKnowledge{};
+  ParameterKnowledge known = ParameterKnowledge{};
+  if (holds_a_fit) known = knowledge_of(read_material(material_file));
   if (known.names.empty())
     throw Failure(Exit::config,
                   Error{where("uncertainty"), "uncertainty",
@@ -68,7 +73,8 @@ ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& materi
 }
 
 ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& by_key) {
-  const VecX g = known.follow.transpose() * by_key, Cg = known.covariance * g;
+  const VecX g = known.follow.transpose() * by_key;
+  const VecX Cg = known.covariance * g;
   const double variance = std::max(0.0, g.dot(Cg));
   ForceUncertainty out;
   out.deviation = std::sqrt(variance);
@@ -104,7 +110,8 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
                        const std::function<double(const SceneParameter&)>& derivative) {
     ForceUncertainty& force = out.emplace_back(
         uncertainty_of(known_, derivatives(sensitivity_.parameters(), known_, derivative)));
-    force.name = name, force.value = value;
+    force.name = name;
+    force.value = value;
   };
   const auto scalar = [&](const std::string& quantity) {
     return [&whole, quantity](const SceneParameter& p) {
@@ -189,7 +196,7 @@ void say_forces(const Voice& voice, const ParameterKnowledge& known,
   }
   if (known.left_out.empty()) return;
   std::string names;
-  for (const std::string& name : known.left_out) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : known.left_out) append(names, ", ", name);
   voice.say("not among its parameters, since the fit gives them no variance: {}", names);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "identification/setup/specimen.hpp"
 
@@ -116,9 +117,13 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
     box.low = bounds == Bounds::admissible ? 0 : -10;
   else if (parameter.unit == std::string(unit::deg))
     box = {-90, 90, true, true};
-  else if (power && bounds == Bounds::admissible)
-    box = start < 0 ? Range{-20, -1, true, true} : Range{1, 20, true, true};
-  else if (power)
+  else if (power && bounds == Bounds::admissible) {
+    if (start < 0) {
+      box = Range{-20, -1, true, true};
+    } else {
+      box = Range{1, 20, true, true};
+    }
+  } else if (power)
     box = {-20, 20, true, true};
   else if (parameter.name.starts_with("c2") && parameter.unit == std::string(unit::none))
     box.high = 100;  // skin in vivo, and porcine skin in stiff directions, is above 10
@@ -148,23 +153,33 @@ FreeParameter free_number(const FitConfig& config, const FitParameter& p,
   Range box{0, 2};
   const FitData* data =
       number.of == SceneNumber::Of::friction ? nullptr : &config.data[number.data];
-  if (!data)
-    one.start = 0.3, one.name = "friction_" + number.contact;
-  else {
-    const std::string behind = config.data.size() > 1 ? "_" + std::to_string(number.data + 1) : "";
-    if (number.of == SceneNumber::Of::touch_offset)
-      one.name = "touch_offset" + behind, one.unit = unit::mm, one.start = data->touch_offset,
+  if (!data) {
+    one.start = 0.3;
+    one.name = "friction_" + number.contact;
+  } else {
+    std::string behind;
+    if (config.data.size() > 1) behind = "_" + std::to_string(number.data + 1);
+    if (number.of == SceneNumber::Of::touch_offset) {
+      one.name = "touch_offset" + behind;
+      one.unit = unit::mm;
+      one.start = data->touch_offset;
       box = {-0.5, 0.5};
-    else if (number.of == SceneNumber::Of::force_offset)
-      one.name = "force_offset" + behind, one.unit = unit::N, one.start = data->force_offset,
+    } else if (number.of == SceneNumber::Of::force_offset) {
+      one.name = "force_offset" + behind;
+      one.unit = unit::N;
+      one.start = data->force_offset;
       box = {-1, 1};
-    else
-      one.name = "compliance" + behind, one.unit = "mm/N", one.start = data->compliance,
+    } else {
+      one.name = "compliance" + behind;
+      one.unit = "mm/N";
+      one.start = data->compliance;
       box = {0, 1};
+    }
   }
   one.start = p.start.value_or(one.start);
   if (config.bounds == Bounds::custom) box = {0, 0};
-  one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
+  one.lower = p.lower.value_or(box.low);
+  one.upper = p.upper.value_or(box.high);
   return one;
 }
 
@@ -189,8 +204,10 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
           if (k.key == power && *k.value < 0) box = {-10, 0, true, true};
       }
       one.preset = config.bounds == Bounds::admissible && !(box.high <= 0 ? p.upper : p.lower);
-      if (config.bounds != Bounds::custom)
-        one.lower = p.lower.value_or(box.low), one.upper = p.upper.value_or(box.high);
+      if (config.bounds != Bounds::custom) {
+        one.lower = p.lower.value_or(box.low);
+        one.upper = p.upper.value_or(box.high);
+      }
     }
     free.push_back(one);
   }
@@ -211,11 +228,12 @@ Complaint unknown(const std::string& at, const std::string& key,
                   const std::vector<MaterialParameter>& known) {
   std::vector<std::string> keys;
   std::string list;
-  for (const MaterialParameter& k : known)
-    keys.push_back(k.key), list += (list.empty() ? "" : ", ") + k.key;
+  for (const MaterialParameter& k : known) {
+    keys.push_back(k.key);
+    append(list, ", ", k.key);
+  }
   const std::string near = nearest(key, keys);
-  return {at, "the law has no number \"" + key + "\"", "one of " + list,
-          near.empty() ? "" : "did you mean \"" + near + "\"?"};
+  return {at, "the law has no number \"" + key + "\"", "one of " + list, did_you_mean(near)};
 }
 
 // what is wrong with one tie whose text was understood; `whole` follows chains to their ends
@@ -224,7 +242,8 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
   const auto number = [&](const std::string& key) {
     return std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == key; });
   };
-  const auto tied = number(tie.key), of = number(tie.of);
+  const auto tied = number(tie.key);
+  const auto of = number(tie.of);
   if (tied == known.end()) all.push_back(unknown(at + "key", tie.key, known));
   if (of == known.end()) all.push_back(unknown(at + "follows", tie.of, known));
   if (tied == known.end() || of == known.end()) return;
@@ -246,8 +265,12 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
                                  [&](const FreeParameter& p) { return p.key == whole.of; });
   const auto source = number(whole.of);
   if (source == known.end()) return;
-  const double from = root == free.end() ? *source->value : root->lower,
-               to = root == free.end() ? from : root->upper;
+  double from = *source->value;
+  double to = from;
+  if (root != free.end()) {
+    from = root->lower;
+    to = root->upper;
+  }
   for (const double end : {whole.factor * from + whole.offset, whole.factor * to + whole.offset})
     if (end < tied->range.low || end > tied->range.high ||
         (end == tied->range.low && !tied->range.low_included))
@@ -330,7 +353,8 @@ void complain_about_ties(const FitConfig& config, const std::vector<MaterialPara
 
 std::vector<Tie> ties_of(const FitConfig& config) {
   const ResolvedTies whole = resolved(written_ties(config));
-  return whole.circle.empty() ? whole.ties : std::vector<Tie>();
+  if (whole.circle.empty()) return whole.ties;
+  return std::vector<Tie>();
 }
 
 std::vector<Complaint> FitConfig::complaints() const {
@@ -373,7 +397,8 @@ std::vector<Complaint> FitConfig::complaints() const {
                      "or bounds: paper, bounds: admissible"});
       continue;
     }
-    const double lower = free[i].lower, upper = free[i].upper;
+    const double lower = free[i].lower;
+    const double upper = free[i].upper;
     const bool from_zero = number && (number->of == SceneNumber::Of::friction ||
                                       number->of == SceneNumber::Of::compliance);
     const Range range = number ? (from_zero ? at_least(0) : Range{})

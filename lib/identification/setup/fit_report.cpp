@@ -73,7 +73,8 @@ void set_bounded(const WithinBounds& bounded, FitRecord& record) {
   for (std::size_t i = 0; i < record.parameters.size(); ++i) {
     FittedParameter& p = record.parameters[i];
     const auto k = static_cast<Eigen::Index>(i);
-    p.low = bounded.low[i], p.high = bounded.high[i];
+    p.low = bounded.low[i];
+    p.high = bounded.high[i];
     if (const double variance = bounded.moments(k, k);
         std::isfinite(variance) && std::isfinite(p.standard_error))
       p.standard_error = std::sqrt(variance);
@@ -106,10 +107,13 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   }
   record.cost = 0.5 * fit.residual.squaredNorm();
   record.kkt_residual = fit.best.kkt;
-  record.mean_error_percent = fit.quality.mean_error_percent,
+  record.mean_error_percent = fit.quality.mean_error_percent;
   record.max_error_percent = fit.quality.max_error_percent;
-  record.r2 = fit.quality.r2, record.aicc = fit.quality.aicc, record.bic = fit.quality.bic;
-  record.residual_correlation = fit.noise.rho, record.effective_values = fit.noise.effective;
+  record.r2 = fit.quality.r2;
+  record.aicc = fit.quality.aicc;
+  record.bic = fit.quality.bic;
+  record.residual_correlation = fit.noise.rho;
+  record.effective_values = fit.noise.effective;
   record.ties = problem.ties;
   record.starts = fit.starts;
   const double* model = fit.model.data();
@@ -130,23 +134,34 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
                    q.r2,
                    q.mean_error_percent,
                    q.max_error_percent};
-    one.model_x.assign(model, model + test.stress_x.size()), model += test.stress_x.size();
-    one.model_z.assign(model, model + test.stress_z.size()), model += test.stress_z.size();
+    one.model_x.assign(model, model + test.stress_x.size());
+    model += test.stress_x.size();
+    one.model_z.assign(model, model + test.stress_z.size());
+    model += test.stress_z.size();
     record.tests.push_back(std::move(one));
   }
   if (problem.tests.empty()) return record;
   // the range of engineering strain along x, over all tests that stretch
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   for (const Test& test : problem.tests)
     for (double x : test.first) {
-      const double strain = test.kind == TestKind::simple_shear ? x : x - 1;
-      low = std::min(low, strain), high = std::max(high, strain);
+      double strain = 0;
+      if (test.kind == TestKind::simple_shear) {
+        strain = x;
+      } else {
+        strain = x - 1;
+      }
+      low = std::min(low, strain);
+      high = std::max(high, strain);
     }
-  record.strain_min = low, record.strain_max = high;
+  record.strain_min = low;
+  record.strain_max = high;
   const FittedTest& first = record.tests.front();
   for (double x : first.first)
     record.strain.push_back(first.kind == "simple_shear" ? x : engineering_strain(x));
-  record.stress = first.stress_x, record.model = first.model_x;
+  record.stress = first.stress_x;
+  record.model = first.model_x;
   return record;
 }
 
@@ -257,20 +272,25 @@ std::vector<std::string> fit_results(const FitRecord& record) {
     const bool turns =
         p.unit == unit::deg && p.upper - p.lower >= 180;  // an angle that has no bounds
     const bool on_bound = !turns && (p.value == p.lower || p.value == p.upper);
-    const std::string known =
-        on_bound ? std::isnan(p.low)
-                       ? "on its bound"
-                       : fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high)
-        : std::isnan(p.standard_error) && p.unit == unit::deg && !std::isnan(p.low)
-            ? fmt::format(
-                  "at an angle of symmetry, or not determined; 95 % interval {:.4g} to {:.4g}",
-                  p.low, p.high)
-        : std::isnan(p.standard_error) && p.unit == unit::deg
-            ? "at an angle of symmetry, or not determined: see its profile"
-        : std::isnan(p.standard_error)
-            ? "not determined by this curve"
-            : fmt::format("standard error {:.2g}{}", p.standard_error,
+    std::string known;
+    if (on_bound) {
+      if (std::isnan(p.low)) {
+        known = "on its bound";
+      } else {
+        known = fmt::format("on its bound; 95 % interval {:.4g} to {:.4g}", p.low, p.high);
+      }
+    } else if (std::isnan(p.standard_error) && p.unit == unit::deg && !std::isnan(p.low)) {
+      known =
+          fmt::format("at an angle of symmetry, or not determined; 95 % interval {:.4g} to {:.4g}",
+                      p.low, p.high);
+    } else if (std::isnan(p.standard_error) && p.unit == unit::deg) {
+      known = "at an angle of symmetry, or not determined: see its profile";
+    } else if (std::isnan(p.standard_error)) {
+      known = "not determined by this curve";
+    } else {
+      known = fmt::format("standard error {:.2g}{}", p.standard_error,
                           held ? " with the angle held: see its profile" : "");
+    }
     lines.push_back(fmt::format("{:>10} = {:12.6g} {:<5}  {}", p.name, p.value,
                                 p.unit == "-" ? "" : p.unit, known));
   }
@@ -284,11 +304,13 @@ std::vector<std::string> fit_results(const FitRecord& record) {
   std::size_t points = 0;
   for (const FittedTest& t : record.tests) points += t.first.size();
   for (const FittedCurve& c : record.curves) points += c.x.size();
-  const std::string aicc =
-      std::isnan(record.aicc)
-          ? fmt::format("no AICc ({} values are too few for {} parameters and their noise)",
-                        values_of(record), record.parameters.size())
-          : fmt::format("AICc {:.6g}", record.aicc);
+  std::string aicc;
+  if (std::isnan(record.aicc)) {
+    aicc = fmt::format("no AICc ({} values are too few for {} parameters and their noise)",
+                       values_of(record), record.parameters.size());
+  } else {
+    aicc = fmt::format("AICc {:.6g}", record.aicc);
+  }
   lines.push_back(fmt::format("R2 {:.6f}, {}, BIC {:.6g}", record.r2, aicc, record.bic));
   if (!record.noise.aicc.empty()) lines.push_back(in_words(record.noise));
   if (std::isfinite(record.left_out_error_percent))
@@ -348,9 +370,12 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
   const double far = 1.5 * record.strain_max;
   for (int i = 0; i <= 200 && far > 0; ++i) {
     const Uniaxial u = uniaxial_incompressible(material, 1 + i * far / 200);
-    const double value = u.converged
-                             ? smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value
-                             : std::numeric_limits<double>::quiet_NaN();
+    double value = 0;
+    if (u.converged) {
+      value = smallest_shear_stiffness(material, u.stretch.asDiagonal(), a).value;
+    } else {
+      value = std::numeric_limits<double>::quiet_NaN();
+    }
     if (std::isgreaterequal(value, 0)) continue;
     lines.push_back(
         fmt::format("{} at strain {:.2g}; the curve ends at {:.2g}",

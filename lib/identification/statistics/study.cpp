@@ -32,7 +32,9 @@ Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, do
       *std::max_element(tests.begin(), tests.end(),
                         [](const Test& a, const Test& b) { return a.points() < b.points(); });
   Test t;
-  t.kind = kind_of(choice), t.fibre_angle_deg = choice.fibre_angle, t.weight = largest.weight;
+  t.kind = kind_of(choice);
+  t.fibre_angle_deg = choice.fibre_angle;
+  t.weight = largest.weight;
   for (std::size_t i = 1; i <= largest.points(); ++i) {
     const double x = reach * static_cast<double>(i) / static_cast<double>(largest.points());
     t.first.push_back(kind_of(choice) == TestKind::simple_shear ? x : 1 + x);
@@ -70,14 +72,20 @@ double reach_of(const CandidateChoice& choice, const Material& material,
   }
   const auto stress_at = [&](double amount) {
     const std::vector<Vec3> a = specimen_fibres(material, choice.fibre_angle);
-    const double first = kind_of(choice) == TestKind::simple_shear ? amount : 1 + amount;
+    double first = 0;
+    if (kind_of(choice) == TestKind::simple_shear) {
+      first = amount;
+    } else {
+      first = 1 + amount;
+    }
     const PlaneState s = plane_state(material, a, kind_of(choice), first, first);
     return s.converged ? s.sigma.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
   };
   // the first crossing: stress need not rise throughout
   constexpr int steps = 60;
   for (int i = 1; i <= steps; ++i) {
-    double high = reach * i / steps, low = reach * (i - 1) / steps;
+    double high = reach * i / steps;
+    double low = reach * (i - 1) / steps;
     if (!std::isgreater(stress_at(high), borne * (1 + 1e-9))) continue;
     for (int k = 0; k < 30; ++k) {
       const double middle = 0.5 * (low + high);
@@ -122,7 +130,8 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     if (!fit.symmetric[static_cast<std::size_t>(i)]) free.push_back(i);
   if (free.empty()) return {};
   const MatX J = fit.best.J(Eigen::all, free);
-  const VecX size = s.size(free), told = s.error(free).cwiseQuotient(size);
+  const VecX size = s.size(free);
+  const VecX told = s.error(free).cwiseQuotient(size);
   const MatX white =
       covariance(J, std::vector<bool>(free.size(), false), white_noise(s.noise, J.rows()));
   double noise = s.noise;
@@ -199,12 +208,17 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
-  record.names = parameter_names(problem), record.symmetric = fit.symmetric;
+  record.names = parameter_names(problem);
+  record.symmetric = fit.symmetric;
   record.value.assign(p.data(), p.data() + n);
   record.size.assign(s.size.data(), s.size.data() + n);
-  record.noise = s.noise, record.rho = noise.rho, record.effective = noise.effective,
-  record.error = s.error, record.singular = s.singular;
-  record.correlation = s.correlation, record.combination = s.combination;
+  record.noise = s.noise;
+  record.rho = noise.rho;
+  record.effective = noise.effective;
+  record.error = s.error;
+  record.singular = s.singular;
+  record.correlation = s.correlation;
+  record.combination = s.combination;
   if (const auto bounded = within_bounds(problem, fit);
       bounded && bounded->moments.array().isFinite().any()) {
     record.correlation = correlation(bounded->moments);
@@ -214,7 +228,9 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   if (s.singular.size() > 0) record.words = sloppy_words(s, record.names, s.singular.size() - 1);
   if (config.profiles.value_or(!problem.further)) {
     ProfileOptions options;
-    options.factor = factors, options.threads = config.threads, options.progress = say("profiles");
+    options.factor = factors;
+    options.threads = config.threads;
+    options.progress = say("profiles");
     for (const Profile& one :
          profiles([&] { return likelihood_problem(problem, fit); }, p, s.error, s.noise, options))
       record.profiles.push_back(
@@ -222,9 +238,11 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   }
   if (config.bootstrap > 0) {
     BootstrapOptions options;
-    options.samples = config.bootstrap, options.seed = static_cast<std::uint64_t>(config.seed);
+    options.samples = config.bootstrap;
+    options.seed = static_cast<std::uint64_t>(config.seed);
     const VecX growth = growth_of_intervals(fit.columns, fit.left_out, noise);
-    options.growth = growth.mean(), options.threads = config.threads,
+    options.growth = growth.mean();
+    options.threads = config.threads;
     options.progress = say("bootstrap");
     if (noise.rho > 0) options.spread = growth / options.growth;
     const auto maker = [&] {
@@ -232,7 +250,9 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
     };
     const Bootstrap b = bootstrap(maker, p, noise, options);
     record.linearised = problem.further != nullptr;
-    record.bootstrap = b.samples, record.bootstrap_low = b.low, record.bootstrap_high = b.high;
+    record.bootstrap = b.samples;
+    record.bootstrap_low = b.low;
+    record.bootstrap_high = b.high;
   }
   record.advice = advice_of(problem, fit, config, s, scenes);
   return record;
@@ -264,12 +284,19 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
                              const StudyConfig& config, const ProgressOf& progress) {
   StabilityRecord record;
   StabilityOptions options;
-  options.to = config.stability_to, options.points = 51, options.stretches = 41,
+  options.to = config.stability_to;
+  options.points = 51;
+  options.stretches = 41;
   options.threads = config.threads;
   if (progress) options.progress = progress("stability map");
   record.map = stability_map(material, options);
   const Test first = problem.tests.empty() ? Test{} : problem.tests.front();
-  const double own = material.fibres.empty() ? 0 : material.fibres[0].alpha_deg;
+  double own = 0;
+  if (material.fibres.empty()) {
+    own = 0;
+  } else {
+    own = material.fibres[0].alpha_deg;
+  }
   const Path path = first.kind == TestKind::simple_shear ? Path::simple_shear
                     : first.kind == TestKind::pure_shear ? Path::pure_shear
                     : first.kind == TestKind::uniaxial   ? Path::uniaxial
@@ -277,14 +304,22 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
   std::vector<double> fine;
   for (int i = 0; i <= 200; ++i) fine.push_back(config.stability_to * i / 200);
   const PathStability along = path_stability(turned(material, first.fibre_angle_deg), path, fine);
-  const std::string reach =
-      first.first.empty() ? ""
-                          : fmt::format("; data reach {:.2f}",
-                                        *std::max_element(first.first.begin(), first.first.end()));
+  std::string reach;
+  if (first.first.empty()) {
+    reach = "";
+  } else {
+    reach = fmt::format("; data reach {:.2f}",
+                        *std::max_element(first.first.begin(), first.first.end()));
+  }
   const double angle = own + first.fibre_angle_deg;
-  const std::string where = material.fibres.empty() ? ""
-                            : angle == 0            ? " along the fibre"
-                                         : fmt::format(" with the fibre at {:g} degrees", angle);
+  std::string where;
+  if (material.fibres.empty()) {
+    where = "";
+  } else if (angle == 0) {
+    where = " along the fibre";
+  } else {
+    where = fmt::format(" with the fibre at {:g} degrees", angle);
+  }
   record.verdict =
       fmt::format("{}{}: {}{}", word(path), where, up_to(along, config.stability_to), reach);
   return record;
@@ -343,13 +378,15 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
     const bool held = std::find(r.symmetric.begin(), r.symmetric.end(), true) != r.symmetric.end();
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      std::string s =
-          r.symmetric[i]
-              ? fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i])
-          : std::isnan(r.error[k])
-              ? fmt::format("{:>10}  not determined, or on its bound", r.names[i])
-              : fmt::format("{:>10}  standard error {:.2g} ({:.0f} %){}", r.names[i], r.error[k],
-                            100 * r.error[k] / r.size[i], held ? " with the angle held" : "");
+      std::string s;
+      if (r.symmetric[i]) {
+        s = fmt::format("{:>10}  at an angle of symmetry: no standard error", r.names[i]);
+      } else if (std::isnan(r.error[k])) {
+        s = fmt::format("{:>10}  not determined, or on its bound", r.names[i]);
+      } else {
+        s = fmt::format("{:>10}  standard error {:.2g} ({:.0f} %){}", r.names[i], r.error[k],
+                        100 * r.error[k] / r.size[i], held ? " with the angle held" : "");
+      }
       if (!r.profiles.empty()) {
         const ProfileRecord& p = r.profiles[i];
         s += fmt::format(
@@ -399,11 +436,16 @@ std::vector<TextFile> study_tables(const StudyRecord& study) {
       const auto k = static_cast<Eigen::Index>(i);
       text += fmt::format("{},{},{},{},", csv_cell(r.names[i]), r.value[i], r.error[k],
                           100 * r.error[k] / r.size[i]);
-      text +=
-          r.profiles.empty() ? "," : fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
-      text += r.bootstrap.rows() < 2
-                  ? ",,\n"
-                  : fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
+      if (r.profiles.empty()) {
+        text += ",";
+      } else {
+        text += fmt::format("{},{}", r.profiles[i].low, r.profiles[i].high);
+      }
+      if (r.bootstrap.rows() < 2) {
+        text += ",,\n";
+      } else {
+        text += fmt::format(",{},{}\n", r.bootstrap_low[k], r.bootstrap_high[k]);
+      }
     }
     files.push_back({"identifiability.csv", text});
     for (std::size_t i = 0; i < r.profiles.size(); ++i) {

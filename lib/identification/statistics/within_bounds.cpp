@@ -27,7 +27,8 @@ struct Reduced {
       if (one == 0) one = 1;
     const Qr qr(J * size.cwiseInverse().asDiagonal());
     const Eigen::Index k = std::min(J.rows(), n);
-    A = MatX::Zero(k + n, n), b = VecX::Zero(k + n);
+    A = MatX::Zero(k + n, n);
+    b = VecX::Zero(k + n);
     A.topRows(k) = qr.R();
     A.bottomRows(n) = 1e-8 * MatX::Identity(n, n);
     b.head(k) = -qr.Q_transposed_times(r).head(k);
@@ -43,13 +44,16 @@ double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eige
               double half, int side) {
   const double bound = side < 0 ? lower[of] : upper[of], least = reduced.b.squaredNorm();
   const auto rise = [&](double x) {
-    VecX low = lower, high = upper;
+    VecX low = lower;
+    VecX high = upper;
     low[of] = high[of] = x;
     return reduced.square(reduced.solve(reduced.b, low, high)) - least;
   };
-  double in = 0, out = side * half / reduced.size[of];
+  double in = 0;
+  double out = side * half / reduced.size[of];
   while (std::abs(out) < std::abs(bound) && rise(out) < half * half) {
-    in = out, out *= 2;
+    in = out;
+    out *= 2;
     if (std::abs(out) > 1e12 * half / reduced.size[of]) return side * inf;  // nothing feels it
   }
   if (std::abs(out) >= std::abs(bound)) {
@@ -107,8 +111,16 @@ std::optional<WithinBounds> within_bounds(const FitProblem& problem, const FitRe
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     const Eigen::Index i = in[static_cast<std::size_t>(j)];
     const bool turns = q.period_of(i) > 0;
-    lower[j] = turns ? -0.5 * q.period_of(i) : q.lower[i] - best.p[i];
-    upper[j] = turns ? 0.5 * q.period_of(i) : q.upper[i] - best.p[i];
+    if (turns) {
+      lower[j] = -0.5 * q.period_of(i);
+    } else {
+      lower[j] = q.lower[i] - best.p[i];
+    }
+    if (turns) {
+      upper[j] = 0.5 * q.period_of(i);
+    } else {
+      upper[j] = q.upper[i] - best.p[i];
+    }
   }
   const Reduced reduced(J, best.r);
   const VecX half = normal_95 * fit.noise.total() * interval_factors(J, none, fit.noise);
