@@ -16,6 +16,7 @@
 #include "core/base/former.hpp"
 #include "core/base/history.hpp"
 #include "core/base/input_path.hpp"
+#include "core/base/search_bounds.hpp"
 
 namespace langer {
 
@@ -28,6 +29,8 @@ struct Member {
   std::vector<std::string> words;
   const char* hint = "";
   const char* former = "";  // its key in old files
+  std::optional<SearchBounds> search;
+  const char* sign_of = "";
 
   void add(Required) { required = true; }
   // several ranges hold together
@@ -40,6 +43,8 @@ struct Member {
   void add(const OneOf& one) { words = one.words; }
   void add(const Hint& h) { hint = h.text; }
   void add(const Formerly& f) { former = f.key; }
+  void add(const SearchBounds& bounds) { search = bounds; }
+  void add(const SignOf& other) { sign_of = other.key; }
 };
 
 Member member(const char* key, const char* unit, const char* doc, const auto&... extras) {

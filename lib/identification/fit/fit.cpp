@@ -107,11 +107,13 @@ LeastSquaresResult search(const FitProblem& problem, LeastSquares& q,
   return one;
 }
 
-// where a search starts: exponents up to 100 act alike over most of such a box, so small ones are
-// drawn more often
-double drawn(const FreeParameter& p, double u) {
-  const bool wide_exponent = p.key.ends_with(".c2") && p.upper - p.lower > 20;
-  return p.lower + (wide_exponent ? u * u * u : u) * (p.upper - p.lower);
+// The random place where a search starts; u is uniform in [0, 1]. In a wide box of exponents small
+// values are drawn more often (SearchBounds).
+double drawn_start(const FreeParameter& p, const MaterialParameter& parameter, double u) {
+  const double width = p.upper - p.lower;
+  double share = u;
+  if (parameter.search && parameter.search->small_values_first && width > 20) share = u * u * u;
+  return p.lower + share * width;
 }
 
 // Size and correlation of the noise that residuals show, with what the parameters took from them;
@@ -614,13 +616,16 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
   fit.starts.resize(options.starts, n + 1);
   std::mt19937_64 rng(options.seed);
   const VecX given = q.start;
+  Material law = problem.law;
+  const std::vector<MaterialParameter> numbers = chosen(law, problem.free);
   double lowest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < options.starts; ++k) {
     for (Eigen::Index i = 0; i < n; ++i) {
       if (k == 0) {
         q.start[i] = given[i];
       } else {
-        q.start[i] = drawn(problem.free[static_cast<std::size_t>(i)], uniform(rng));
+        const auto at = static_cast<std::size_t>(i);
+        q.start[i] = drawn_start(problem.free[at], numbers[at], uniform(rng));
       }
     }
     LeastSquaresResult one = search(problem, q, options.least_squares);

@@ -114,9 +114,12 @@ void SceneTests::add_run(std::size_t item, double longer,
   if (!is_new) return;
   Loaded<SolveConfig> loaded = scene_config(data, item, where_);
   SolveConfig& scene = loaded.config;
-  const bool angle_free =
-      std::any_of(law_.free.begin(), law_.free.end(),
-                  [](const FreeParameter& p) { return p.key.ends_with("].alpha"); });
+  Material law = law_.law;
+  const auto is_free_angle = [this](const MaterialParameter& number) {
+    return number.unit == unit::deg &&
+           std::ranges::find(law_.free, number.key, &FreeParameter::key) != law_.free.end();
+  };
+  const bool angle_free = std::ranges::any_of(parameters(law), is_free_angle);
   if (!scene.fibre_angles.empty() && (angle_free || data.fibre_angle != 0))
     throw Failure(Exit::config,
                   Error{loaded.where("fibre_angles"), "fibre_angles",

@@ -104,41 +104,28 @@ void FitConfig::complete(Tree& tree) {
       for (Tree& item : entry.value.list) add_what_the_file_says(item);
 }
 
+// The bounds of a number whose listing names none. A shear modulus or coefficient of an energy may
+// be negative unless the config asks for admissible numbers.
+Range bounds_of_unit(const std::string& unit, Bounds bounds, double start) {
+  if (unit == unit::MPa && bounds == Bounds::admissible) return {0, 10};
+  if (unit == unit::deg) return {-90, 90};
+  if (unit == unit::s) return {start / 100, 100 * start};  // a relaxation time
+  if (unit == unit::per_MPa) return {1e-8, 10};            // a compressibility
+  return {-10, 10};
+}
+
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start) {
-  const bool of_fibre = parameter.key.starts_with("fibres");
-  const bool power =
-      !of_fibre && parameter.name.starts_with("alpha") && parameter.unit == std::string(unit::none);
-  Range box{-10, 10, true, true};
-  if (parameter.name.starts_with("bulk_modulus"))
-    box = {0.2, 2e8, true, true};
-  else if (parameter.key.ends_with("pow_linear.E"))
-    box = {0, 1e4, true, true};  // tendon: some 1000
-  else if (parameter.unit == std::string(unit::MPa))
-    box.low = bounds == Bounds::admissible ? 0 : -10;
-  else if (parameter.unit == std::string(unit::deg))
-    box = {-90, 90, true, true};
-  else if (power && bounds == Bounds::admissible) {
-    if (start < 0) {
-      box = Range{-20, -1, true, true};
-    } else {
-      box = Range{1, 20, true, true};
+  Range box = bounds_of_unit(parameter.unit, bounds, start);
+  if (const auto& search = parameter.search) {
+    box = {search->low, search->high};
+    if (bounds == Bounds::admissible && search->least_size > 0) {
+      if (start < 0) {
+        box.high = -search->least_size;
+      } else {
+        box.low = search->least_size;
+      }
     }
-  } else if (power)
-    box = {-20, 20, true, true};
-  else if (parameter.name.starts_with("c2") && parameter.unit == std::string(unit::none))
-    box.high = 100;  // skin in vivo, and porcine skin in stiff directions, is above 10
-  else if (of_fibre && parameter.key.ends_with("exp_pow.alpha"))
-    box.high = 100;
-  else if (parameter.name.starts_with("lam0"))
-    box = {1.001, 2, true, true};
-  else if (parameter.unit == std::string(unit::s))
-    box = {start / 100, 100 * start, true, true};  // relaxation times
-  else if (parameter.name.starts_with("Jm"))
-    box = {0.1, 200, true, true};
-  else if (parameter.name.starts_with("locking"))
-    box = {1, 20, true, true};
-  else if (parameter.unit == std::string(unit::per_MPa))
-    box = {1e-8, 10, true, true};
+  }
   box.low = std::max(box.low, parameter.range.low);
   box.high = std::min(box.high, parameter.range.high);
   return box;
@@ -197,11 +184,10 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
     if (found != known.end()) {
       if (!p.start) one.start = *found->value;
       Range box = default_bounds(*found, config.bounds, one.start);
-      // Ogden's mu_p alpha_p >= 0: the modulus follows the sign of its power
-      if (config.bounds == Bounds::admissible && p.key.find("ogden.mu") != std::string::npos) {
-        const std::string power = p.key.substr(0, p.key.size() - 3) + "alpha" + p.key.back();
-        for (const MaterialParameter& k : known)
-          if (k.key == power && *k.value < 0) box = {-10, 0, true, true};
+      // mu_p alpha_p >= 0 of an Ogden term: its modulus has the sign of its power
+      if (config.bounds == Bounds::admissible && !found->sign_of.empty()) {
+        const auto other = std::ranges::find(known, found->sign_of, &MaterialParameter::key);
+        if (other != known.end() && *other->value < 0) box = {-10, 0};
       }
       one.preset = config.bounds == Bounds::admissible && !(box.high <= 0 ? p.upper : p.lower);
       if (config.bounds != Bounds::custom) {

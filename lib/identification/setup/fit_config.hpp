@@ -315,9 +315,8 @@ struct FitConfig {
   static void complete(Tree& tree);  // what the measured files say of themselves
 };
 
-// the box of a number of the law: what its range allows of -10..10 MPa, or of 0..10 MPa where it
-// must be admissible; exponents 0..10, those of fibres (c2) 0..100, angles -90..90, limits of
-// extension up to 200
+// The bounds of a number of the material where the config names none: those of its listing
+// (SearchBounds) or of its unit, within the range that the material model allows.
 Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double start);
 
 // the parameters with their bounds and start values; a key that the law lacks stays without

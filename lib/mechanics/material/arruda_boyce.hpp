@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -17,7 +18,7 @@ struct ArrudaBoyce {
     v(&ArrudaBoyce::mu, "mu", unit::MPa,
       "n k T of the chains: the shear modulus at rest where they are long", required);
     v(&ArrudaBoyce::locking_stretch, "locking_stretch", unit::none,
-      "stretch at which the chains are straight", required, positive);
+      "stretch at which the chains are straight", required, positive, SearchBounds{1, 20});
   }
   template <class T>
   Energy<T> operator()(T I1_bar) const {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -18,7 +19,7 @@ struct ExpPowFibre {
   static void fields(auto& v) {
     v(&ExpPowFibre::ksi, "ksi", unit::MPa, "fibre modulus", required, at_least(0));
     v(&ExpPowFibre::alpha, "alpha", unit::none, "coefficient in the exponent; 0: a power law",
-      at_least(0));
+      at_least(0), SearchBounds{0, 100});
     v(&ExpPowFibre::beta, "beta", unit::none, "power of (I4_bar - 1); 2: the energy of hgo",
       at_least(2));
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -18,7 +19,7 @@ struct Gent {
   static void fields(auto& v) {
     v(&Gent::mu, "mu", unit::MPa, "shear modulus at rest", required);
     v(&Gent::Jm, "Jm", unit::none, "value of (I1_bar - 3) at which the stress becomes infinite",
-      required, positive);
+      required, positive, SearchBounds{0.1, 200});
   }
   template <class T>
   Energy<T> operator()(T I1_bar) const {

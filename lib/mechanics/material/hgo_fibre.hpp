@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -17,7 +18,9 @@ struct HgoFibre {
   double c1 = 0, c2 = 0;
   static void fields(auto& v) {
     v(&HgoFibre::c1, "c1", unit::MPa, "fibre modulus", required);
-    v(&HgoFibre::c2, "c2", unit::none, "exponent", required, at_least(0));
+    // Skin in vivo, and porcine skin in its stiff directions, has exponents above 10.
+    v(&HgoFibre::c2, "c2", unit::none, "exponent", required, at_least(0),
+      SearchBounds{.low = 0, .high = 100, .small_values_first = true});
   }
   double modulus() const { return c1; }
   // W = c1/2 x^2 phi(c2 x^2) with phi(y) = (exp(y) - 1)/y, regular at c2 = 0

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -14,7 +15,7 @@ struct LogarithmicVolume {
   double bulk_modulus = 0;
   static void fields(auto& v) {
     v(&LogarithmicVolume::bulk_modulus, "bulk_modulus", unit::MPa, "kappa of U = kappa/2 (ln J)^2",
-      required, positive);
+      required, positive, SearchBounds{0.2, 2e8});
   }
   // of J - 1, without cancellation
   template <class T>

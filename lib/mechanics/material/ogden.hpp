@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/energy.hpp"
 
 namespace langer {
@@ -19,12 +20,13 @@ struct Ogden {
   static constexpr Invariant of = Invariant::squared_stretches;
   double mu1 = 0, alpha1 = 2, mu2 = 0, alpha2 = 2, mu3 = 0, alpha3 = 2;
   static void fields(auto& v) {
-    v(&Ogden::mu1, "mu1", unit::MPa, "modulus of the first term", required);
-    v(&Ogden::alpha1, "alpha1", unit::none, "power of the first term", required);
-    v(&Ogden::mu2, "mu2", unit::MPa, "modulus of the second term");
-    v(&Ogden::alpha2, "alpha2", unit::none, "power of the second term");
-    v(&Ogden::mu3, "mu3", unit::MPa, "modulus of the third term");
-    v(&Ogden::alpha3, "alpha3", unit::none, "power of the third term");
+    constexpr SearchBounds powers{-20, 20, 1};
+    v(&Ogden::mu1, "mu1", unit::MPa, "modulus of the first term", required, SignOf{"alpha1"});
+    v(&Ogden::alpha1, "alpha1", unit::none, "power of the first term", required, powers);
+    v(&Ogden::mu2, "mu2", unit::MPa, "modulus of the second term", SignOf{"alpha2"});
+    v(&Ogden::alpha2, "alpha2", unit::none, "power of the second term", powers);
+    v(&Ogden::mu3, "mu3", unit::MPa, "modulus of the third term", SignOf{"alpha3"});
+    v(&Ogden::alpha3, "alpha3", unit::none, "power of the third term", powers);
   }
   struct Part {
     double mu, alpha;

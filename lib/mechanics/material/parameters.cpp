@@ -17,9 +17,10 @@ void collect(T& object, const std::string& path, List& list);
 template <class V>
 void collect_member(V& value, const Member& m, const std::string& path, List& list) {
   if constexpr (std::is_same_v<V, double>) {
-    const auto dot = path.rfind('.');
-    list.push_back(
-        {path, dot == std::string::npos ? path : path.substr(dot + 1), m.unit, m.range, &value});
+    const auto dot = path.rfind('.');  // npos + 1 is 0: a path of one word
+    MaterialParameter parameter{path, path.substr(dot + 1), m.unit, m.range, &value, m.search, ""};
+    if (*m.sign_of) parameter.sign_of = path.substr(0, dot + 1) + m.sign_of;
+    list.push_back(std::move(parameter));
   } else if constexpr (is_sum<V>) {
     std::map<std::string, int> count;
     const auto key = [](const auto& term) {

@@ -3,9 +3,11 @@
 // What fit varies and what sensitivity ranks is chosen from this list.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/search_bounds.hpp"
 #include "mechanics/material/material.hpp"
 
 namespace langer {
@@ -17,6 +19,8 @@ struct MaterialParameter {
   std::string unit;
   Range range;  // that the law allows
   double* value = nullptr;
+  std::optional<SearchBounds> search;  // of a fit, where they do not follow from the unit
+  std::string sign_of;                 // path of a number whose sign an admissible value has
 
   // of matrix or fibres: the energy of a state and its stress are linear in it
   bool modulus() const { return unit == langer::unit::MPa && !key.starts_with("volume."); }

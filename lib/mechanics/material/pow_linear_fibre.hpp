@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "core/tensor/packet.hpp"
 #include "mechanics/material/energy.hpp"
 
@@ -22,10 +23,10 @@ struct PowLinearFibre {
   static void fields(auto& v) {
     v(&PowLinearFibre::E, "E", unit::MPa,
       "modulus of the straight fibre: nominal stress over stretch has the slope E (1/lam0 + (lam0^2 - 1)/(2 (beta - 1) lam0^3))",
-      required, at_least(0));
+      required, at_least(0), SearchBounds{0, 1e4});  // tendon has some 1000 MPa
     v(&PowLinearFibre::lam0, "lam0", unit::none,
       "stretch at which the toe ends and the fibre is straight", required,
-      Range{1, 10, false, true});
+      Range{1, 10, false, true}, SearchBounds{1.001, 2});
     v(&PowLinearFibre::beta, "beta", unit::none, "power of (I4_bar - 1) in the energy of the toe",
       between(2, 20));
   }

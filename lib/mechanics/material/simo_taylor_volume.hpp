@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/fields.hpp"
+#include "core/base/search_bounds.hpp"
 #include "core/tensor/packet.hpp"
 #include "mechanics/material/energy.hpp"
 
@@ -30,7 +31,7 @@ struct SimoTaylorVolume {
   double bulk_modulus = 0;
   static void fields(auto& v) {
     v(&SimoTaylorVolume::bulk_modulus, "bulk_modulus", unit::MPa,
-      "kappa of U = kappa/4 (J^2 - 1 - 2 ln J)", required, positive);
+      "kappa of U = kappa/4 (J^2 - 1 - 2 ln J)", required, positive, SearchBounds{0.2, 2e8});
   }
   // of J - 1, without cancellation
   template <class T>
