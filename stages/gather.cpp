@@ -128,7 +128,7 @@ std::vector<Spread> spreads_over(const Job<GatherConfig>& job,
   for (const GatherInput& member : members) {
     const int number = std::atoi(member.at.at(0).c_str());
     if (const std::string lacks =
-            number < 1 ? "no set of that number" : why_no_samples(fitted, number);
+            number < 1 ? "no set of that number" : reason_without_samples(fitted, number);
         !lacks.empty())
       refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), lacks));
     sets.push_back(sample_of(fitted, number).values);

@@ -14,7 +14,7 @@ std::vector<Summary> sample(const Job<SampleConfig>& job) {
   const std::string file = job.input("material");
   const MaterialFile fitted = read_material(file);
   const int number = job.config.number;
-  if (const std::string lacks = why_no_samples(fitted, number); !lacks.empty())
+  if (const std::string lacks = reason_without_samples(fitted, number); !lacks.empty())
     throw Failure(Exit::config, Error{job.where("number"), "number",
                                       fmt::format("{}, and {} has {}", number, file, lacks),
                                       "a set of a fit that tells how well its parameters are known",

@@ -86,7 +86,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
   if (again) return {};
   all_is_kept.reset();
   const auto forces = uncertainty->of(end.last);
-  say_forces(job.voice(), known, forces, estimate.at_end);
+  report_forces(job.voice(), known, forces, estimate.at_end);
   const auto said =
       joined({sensitivity->summary(end.last), summary_of(forces), summary_of(estimate.at_end),
               model.summary(estimate.at_end), watch.contact_summary()});
@@ -112,7 +112,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
   for (const std::string& line : review_lines(job.config, material, job.where)) {
     job.voice().warn(line);
   }
-  const ParameterKnowledge known = take_uncertain(job.config, file, job.where);
+  const ParameterKnowledge known = prepare_uncertainty(job.config, file, job.where);
   if (job.has("mirror") && !job.dry_run &&
       job.config.sensitivity.empty()) {  // a number of one is another of its image
     SolveConfig own = job.config;

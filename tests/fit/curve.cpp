@@ -77,7 +77,7 @@ TEST_CASE("columns that are missing, doubled or without unit are refused") {
          "c.csv:1:8: stress_unit: no unit for the column \"stress\"");
   starts(
       refusal("strain,stress_MPa\n0,0\n"),
-      "c.csv:1:8: stress: not told for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
+      "c.csv:1:8: stress: not known for the column \"stress_MPa\"; expected stress: cauchy (true) or nominal");
   starts(refusal("time,force\n0,0\n"),
          "c.csv:1:1: columns: found time, force; expected one column of strain");
   starts(refusal("strain,cauchy_stress_torr\n0,0\n"),

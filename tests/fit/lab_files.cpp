@@ -155,7 +155,7 @@ TEST_CASE(
   CHECK(t.first[1] == 1.25);
   REQUIRE(t.notes.size() == 2);
   holds(t.notes[0], "l.csv:1:1: \"a\" starts at 1: taken as stretch; say strain: stretch");
-  holds(t.notes[1], "l.csv:1:3: the measure of \"b_MPa\" is not told: taken as cauchy");
+  holds(t.notes[1], "l.csv:1:3: the measure of \"b_MPa\" is not known: taken as cauchy");
   t = read("0,0\n0.25,0.5\n");
   CHECK(t.first[1] == 1.25);
   holds(t.notes[0], "taken as engineering strain");

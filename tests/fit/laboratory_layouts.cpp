@@ -202,7 +202,7 @@ std::vector<Layout> layouts_of_measures() {
        "columns.strain_x: the column \"Nominal stress (MPa)\"; expected a column of deformation",
        columns("Strain", "Nominal stress (MPa)") + ", strain: engineering"},
       {"a stress without a measure", "none.csv", "stretch,stress (MPa)\n1,0\n1.125,0.2\n1.25,0.5\n",
-       "", "stress: not told for the column \"stress (MPa)\"", "stress: nominal"},
+       "", "stress: not known for the column \"stress (MPa)\"", "stress: nominal"},
   };
 }
 

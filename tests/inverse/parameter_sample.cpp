@@ -35,7 +35,7 @@ TEST_CASE("sets drawn by a covariance have it, the same number is the same set, 
   Eigen::Vector2d mean(0, 0);
   constexpr int n = 3000;
   for (int k = 1; k <= n; ++k) {
-    REQUIRE(why_no_samples(file, k).empty());
+    REQUIRE(reason_without_samples(file, k).empty());
     const ParameterSample sample = sample_of(file, k);
     const Eigen::Vector2d d(yeoh(sample).a1 - 0.05,
                             std::get<HgoFibre>(sample.law.fibres[0].law).c1 - 0.1);
@@ -60,10 +60,10 @@ TEST_CASE("sets stay within bounds, a bootstrap gives its own, and what has no s
   file.fit->sets.resize(2, 2);
   file.fit->sets << 0.04, 0.11, 0.06, 0.09;
   CHECK(yeoh(sample_of(file, 2)).a1 == 0.06);
-  CHECK(why_no_samples(file, 2).empty());
-  CHECK(why_no_samples(file, 3) == "2 sets");
+  CHECK(reason_without_samples(file, 2).empty());
+  CHECK(reason_without_samples(file, 3) == "2 sets");
   file.fit->sets.resize(0, 0);
   file.fit->covariance.setConstant(std::nan(""));
-  CHECK(why_no_samples(file, 1) == "a fit that does not tell how well its parameters are known");
-  CHECK(why_no_samples(MaterialFile{}, 1) == "no fit");
+  CHECK(reason_without_samples(file, 1) == "a fit without standard errors of its parameters");
+  CHECK(reason_without_samples(MaterialFile{}, 1) == "no fit");
 }

@@ -489,7 +489,7 @@ TEST_CASE("What a scene does not have, and files that do not fit it, are named w
         "no scene has a contact \"cone\"");
   holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}",
                      "parameters: [{key: matrix.gent.mu}]\n")),
-        "the law has no number");
+        "the material has no number");
   write("force.csv", "travel_mm,force_mN\n0.5,10\n1.2,40\n");
   const std::string longer = refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}"));
   holds(longer, "force.csv:3:1");

@@ -46,7 +46,7 @@ if(NOT count EQUAL 16)
 endif()
 file(WRITE ${WORK}/own_bounds.yaml "{}\n")
 run(0 "3 parameters" ${BIN}/langer-sensitivity own_bounds.yaml --material yeoh/material.h5 -o s3/sensitivity.h5)
-run(2 "the material comes from no fit" ${BIN}/langer-sensitivity own_bounds.yaml
+run(2 "the material was not fitted" ${BIN}/langer-sensitivity own_bounds.yaml
     --material ${ROOT}/configs/material/abdomen_yeoh.yaml -o s4/sensitivity.h5)
 file(WRITE ${WORK}/unknown.yaml "parameters:\n  - {key: matrix.yeoh.a9, around: 0.5}\n")
 run(2 "unknown.yaml:2:6: parameters[0].key: the material has no number \"matrix.yeoh.a9\"" ${BIN}/langer-sensitivity unknown.yaml

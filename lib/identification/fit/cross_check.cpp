@@ -103,19 +103,20 @@ Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& fi
                                 std::max(std::abs(first.p[i]), f.q.typical[i]));
   std::string same;
   if (apart < 1e-2) {
-    same = fmt::format("parameters within {:.0e} of themselves", apart);
+    same = fmt::format("parameters equal within {:.0e}", apart);
   } else {
     same = "with other parameters: these tests cannot decide between the two";
   }
   if (c.agrees) {
-    c.text = fmt::format("NLopt agrees: cost {:.9g} beside {:.9g}, {}", c.cost, first.cost, same);
+    c.text = fmt::format("NLopt agrees: cost {:.9g} and {:.9g}, {}", c.cost, first.cost, same);
   } else if (higher < 0) {
-    c.text = fmt::format("NLopt finds a lower cost, {:.9g} beside {:.9g}: more starts are needed",
-                         c.cost, first.cost);
+    c.text =
+        fmt::format("NLopt finds a lower cost, {:.9g} instead of {:.9g}: more starts are needed",
+                    c.cost, first.cost);
   } else {
     c.text = fmt::format(
-        "NLopt ends higher, at a cost of {:.9g} beside {:.9g}: it is no cross-check here", c.cost,
-        first.cost);
+        "NLopt ends at a higher cost, {:.9g} instead of {:.9g}: it does not confirm the fit",
+        c.cost, first.cost);
   }
   return c;
 }

@@ -24,7 +24,7 @@ std::vector<MaterialParameter> chosen(Material& material, const std::vector<Free
   const std::vector<MaterialParameter> all = parameters(material);
   std::vector<MaterialParameter> list;
   for (const FreeParameter& p : free) {
-    if (!p.of_law()) {
+    if (!p.is_material_number()) {
       list.push_back({p.key, p.name, p.unit, {}, nullptr});
       continue;
     }
@@ -184,7 +184,7 @@ FitQuality quality(const VecX& model, const VecX& stress, double largest) {
 }
 
 // errors of each test, and of all of them together
-void judge_errors(const FitProblem& problem, const VecX& stress, FitResult& fit) {
+void set_errors(const FitProblem& problem, const VecX& stress, FitResult& fit) {
   Eigen::Index stressed = 0;
   const auto add = [&](const VecX& model, const VecX& measured, double largest) {
     const FitQuality q = quality(model, measured, largest);
@@ -237,7 +237,7 @@ double aicc(double minus_two_log_likelihood, const FitProblem& problem, const No
   return minus_two_log_likelihood + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-void judge(const FitProblem& problem, FitResult& fit) {
+void set_quality(const FitProblem& problem, FitResult& fit) {
   const VecX stress = measured_stress(problem.tests);
   const auto n = static_cast<double>(fit.best.r.size());
   if (problem.further)
@@ -245,7 +245,7 @@ void judge(const FitProblem& problem, FitResult& fit) {
   else
     fit.quality = quality(fit.model, stress, 1);
   fit.quality.mean_error_percent = fit.quality.max_error_percent = 0;
-  judge_errors(problem, stress, fit);
+  set_errors(problem, stress, fit);
   const double spread = minus_two_log_likelihood(fit.best.r);
   fit.quality.aicc = aicc(spread, problem, fit.noise_model);
   const double k = static_cast<double>(problem.free.size()) + 1 + fit.noise_model.parameters();
@@ -651,7 +651,7 @@ FitResult fit(const FitProblem& problem, const FitOptions& options) {
     if (const auto& more = problem.further)
       fit.further = more->measured() +
                     fit.residual.tail(more->measured().size()).cwiseQuotient(more->weight());
-    judge(problem, fit);
+    set_quality(problem, fit);
   }
   return fit;
 }

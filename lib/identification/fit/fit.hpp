@@ -29,7 +29,7 @@ struct FreeParameter {
   std::string name = "",
               unit =
                   "";  // of one that is no number of the law: of a scene, or of how it was measured
-  bool of_law() const { return name.empty(); }
+  bool is_material_number() const { return name.empty(); }
 };
 
 // Tests whose model this folder does not know, such as whole scenes: m values behind those of

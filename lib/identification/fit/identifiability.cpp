@@ -17,9 +17,9 @@ namespace langer {
 namespace {
 
 // The problem with parameter `held` fixed at x: the others remain.
-struct Held {
+struct ReducedProblem {
   LeastSquares rest;
-  Held(const LeastSquares& all, Eigen::Index held, double x, const VecX& start) {
+  ReducedProblem(const LeastSquares& all, Eigen::Index held, double x, const VecX& start) {
     const auto n = start.size();
     std::vector<Eigen::Index> free;
     for (Eigen::Index i = 0; i < n; ++i)
@@ -73,7 +73,7 @@ Point profile_point(const LeastSquares& q, Eigen::Index i, double x, const VecX&
     VecX r;
     if (q.residual(point.p, r) && r.allFinite()) chi = r.squaredNorm();
   } else {
-    const Held held(q, i, x, from);
+    const ReducedProblem held(q, i, x, from);
     LeastSquaresOptions enough;
     enough.iterations = 60;
     enough.kkt = 1e-9;

@@ -78,7 +78,7 @@ VecX residual_curvature(const LeastSquares& q, const VecX& p, const VecX& r) {
 // A place to go on from, along a parameter without first effect; p itself if there is none: beside
 // p where the cost is lower, or anywhere in the box where it is the same and other parameters have
 // become free to lower it.
-VecX aside(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
+VecX escape_point(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
   const double rounding = 1e-13 * q.size * q.size;
   VecX best = p;
   VecX moved = p;
@@ -224,7 +224,7 @@ class LevenbergMarquardt {
     for (s_.iterations = 0; s_.iterations < options.iterations; ++s_.iterations) {
       s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
       if (s_.kkt <= options.kkt) {
-        if (moved_aside()) continue;
+        if (escaped_saddle()) continue;
         s_.converged = true;
         s_.why = "optimal";
         return;
@@ -237,7 +237,7 @@ class LevenbergMarquardt {
       bool accepted = false;
       while (!accepted && mu_ < 1e12 && !small_) accepted = step(options.step);
       if (small_) {
-        if (moved_aside()) continue;
+        if (escaped_saddle()) continue;
         s_.converged = true;
         s_.why = "optimal within the step asked for";
         return;
@@ -248,7 +248,7 @@ class LevenbergMarquardt {
         s_.why = "optimal to a thirtieth of the standard errors; the model has kinks";
         return;
       }
-      if (!accepted && !moved_aside())
+      if (!accepted && !escaped_saddle())
         return end("optimal within rounding", "no step lowers the cost");
     }
     s_.kkt = kkt_residual(q_, s_.p, s_.r, s_.J);
@@ -289,7 +289,7 @@ class LevenbergMarquardt {
         } else {
           stalled_ = 0;
         }
-        take(p, r, J);
+        accept(p, r, J);
         return true;
       }
     mu_ = std::max(mu_, 1e-15) * growth_;
@@ -306,13 +306,13 @@ class LevenbergMarquardt {
            known_to_ * known_to_ * 2 * s_.cost / static_cast<double>(freedom);
   }
 
-  bool moved_aside() {
-    if (++asides_ > 10) return false;
-    const VecX p = aside(q_, s_.p, s_.r, s_.J);
+  bool escaped_saddle() {
+    if (++escapes_ > 10) return false;
+    const VecX p = escape_point(q_, s_.p, s_.r, s_.J);
     VecX r;
     MatX J;
     if (p == s_.p || !q_.residual(p, r) || !jacobian(q_, p, J)) return false;
-    take(p, r, J);
+    accept(p, r, J);
     D_.setZero();
     mu_ = 1e-3;
     growth_ = 2;
@@ -320,7 +320,7 @@ class LevenbergMarquardt {
     return true;
   }
 
-  void take(const VecX& p, const VecX& r, const MatX& J) {
+  void accept(const VecX& p, const VecX& r, const MatX& J) {
     s_.p = p;
     s_.r = r;
     s_.J = J;
@@ -331,7 +331,7 @@ class LevenbergMarquardt {
   LeastSquaresResult s_;
   VecX D_, curvature_;
   double mu_ = 1e-3, growth_ = 2;
-  int asides_ = 0, stalled_ = 0;
+  int escapes_ = 0, stalled_ = 0;
   bool small_ = false;
   double good_enough_ = 0;
 };

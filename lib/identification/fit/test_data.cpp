@@ -52,7 +52,7 @@ struct Reading {
                         std::move(expected),
                         std::move(hint)});
   }
-  void say_of_column(std::size_t column, std::string key, std::string found, std::string expected,
+  void report_column(std::size_t column, std::string key, std::string found, std::string expected,
                      std::string hint = "") {
     say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found),
         std::move(expected), std::move(hint));
@@ -120,7 +120,7 @@ struct Reading {
       const bool deformation = m.of == ColumnMeaning::Of::deformation;
       std::string& slot = deformation ? format.strain_x : format.stress_x;
       if (!slot.empty())
-        say_of_column(i, "columns",
+        report_column(i, "columns",
                       fmt::format("a second column of {}: \"{}\"",
                                   deformation ? "deformation" : "stress", name(i)),
                       expected, cure);
@@ -137,7 +137,7 @@ struct Reading {
   std::optional<T> agreed(const std::optional<T>& key, const std::optional<T>& column,
                           std::size_t at, const char* name_of_key, const char* what) {
     if (key && column && *key != *column)
-      say_of_column(at, name_of_key, fmt::format("{} for the column \"{}\"", word(*key), name(at)),
+      report_column(at, name_of_key, fmt::format("{} for the column \"{}\"", word(*key), name(at)),
                     fmt::format("the {} that the column's name carries", what));
     return key ? key : column;
   }
@@ -145,7 +145,7 @@ struct Reading {
   double size(const std::optional<double>& given, std::size_t column, const char* key,
               const char* what) {
     if (given) return *given;
-    say_of_column(column, key, fmt::format("missing, for the column \"{}\"", name(column)), what,
+    report_column(column, key, fmt::format("missing, for the column \"{}\"", name(column)), what,
                   fmt::format("{}: 10 (mm) in the item of `data`", key));
     return 1;
   }
@@ -161,7 +161,7 @@ struct Reading {
     if (!other_noun && !other_unit) {
       return;
     }
-    say_of_column(column, as_stress ? "columns.stress_x" : "columns.strain_x",
+    report_column(column, as_stress ? "columns.stress_x" : "columns.strain_x",
                   "the column \"" + name(column) + "\"",
                   as_stress ? "a column of stress or force" : "a column of deformation",
                   "the columns of strain and stress may have been exchanged");
@@ -178,7 +178,7 @@ struct Reading {
         agreed(format.stress_unit, m.stress_unit, column, "stress_unit", "unit");
     if (!unit && format.normalised) unit = StressUnit::MPa;  // any serves
     if (!unit)
-      return say_of_column(
+      return report_column(
           column, "stress_unit",
           m.foreign_unit.empty()
               ? "no unit for the column \"" + name(column) + "\""
@@ -186,37 +186,37 @@ struct Reading {
           "stress_unit, or a name that ends in _MPa, _kPa or _Pa",
           "of a force: N, mN, kN, gf, kgf or lbf, with width and thickness");
     axis.stress_factor = format.stress_sign.value_or(1) * factor(*unit);
-    std::optional<StressMeasure> told = m.stress;
+    std::optional<StressMeasure> named = m.stress;
     if (is_force(*unit) && format.normalised) {
-      told = StressMeasure::nominal;
+      named = StressMeasure::nominal;
     } else if (is_force(*unit)) {
       axis.stress_factor /=
           size(width, column, width_key, "the width of the specimen in mm, across this force");
       axis.stress_factor /=
           size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
-      told = StressMeasure::nominal;
+      named = StressMeasure::nominal;
     }
     const auto measure =
-        agreed(stress_by_key, told, column, "stress",
+        agreed(stress_by_key, named, column, "stress",
                is_force(*unit) ? "measure of a force over the area at rest:" : "measure");
     if (measure) {
       check_one_measure(column, *measure);
       format.like.measure = *measure;
     } else if (!m.stress_question.empty()) {
-      say_of_column(column, "stress",
+      report_column(column, "stress",
                     fmt::format("the column \"{}\", which {}", name(column), m.stress_question),
                     "stress: cauchy, nominal (first Piola-Kirchhoff) or second_piola",
                     "in the item of `data`");
     } else if (found_by_name) {
-      say_of_column(
-          column, "stress", "not told for the column \"" + name(column) + "\"",
+      report_column(
+          column, "stress", "not known for the column \"" + name(column) + "\"",
           "stress: cauchy (true) or nominal (force over the area at rest)",
           "in the item of `data`, or in the column's name: cauchy_stress_kPa, nominal_stress_kPa");
     } else if (!guessed_stress && format.like.measure == StressMeasure::cauchy) {
       note(
           column,
           fmt::format(
-              "the measure of \"{}\" is not told: taken as cauchy (true); say stress: cauchy, or nominal (force over the area at rest)",
+              "the measure of \"{}\" is not known: taken as cauchy (true); say stress: cauchy, or nominal (force over the area at rest)",
               name(column)));
       guessed_stress = true;
     }
@@ -226,7 +226,7 @@ struct Reading {
   void check_one_measure(std::size_t column, StressMeasure measure) {
     const bool differs = named_stress && *named_stress != measure;
     if (differs || (guessed_stress && measure != StressMeasure::cauchy)) {
-      say_of_column(column, "stress",
+      report_column(column, "stress",
                     fmt::format("{} for the column \"{}\", unlike the other axis", word(measure),
                                 name(column)),
                     "one measure for both axes",
@@ -246,7 +246,7 @@ struct Reading {
     std::optional<StrainUnit> unit =
         agreed(format.strain_unit, m.strain_unit, column, "strain_unit", "unit");
     if (!unit && (m.lengths || format.gauge_length || !m.foreign_unit.empty()) && !slides)
-      say_of_column(column, "strain_unit",
+      report_column(column, "strain_unit",
                     m.foreign_unit.empty() ? "no unit for the column \"" + name(column) + "\""
                                            : fmt::format("the unit \"{}\" of the column \"{}\"",
                                                          m.foreign_unit, name(column)),
@@ -258,10 +258,10 @@ struct Reading {
     const std::optional<StrainMeasure> measure =
         agreed(format.strain, m.strain, column, "strain", "measure");
     if (unit && is_length(*unit) && measure && *measure > StrainMeasure::stretch)
-      say_of_column(column, "strain", word(*measure) + " for lengths",
+      report_column(column, "strain", word(*measure) + " for lengths",
                     "engineering (an elongation) or stretch (a length)");
     if (!measure && !m.strain_question.empty() && !slides) {
-      say_of_column(column, "strain",
+      report_column(column, "strain",
                     fmt::format("the column \"{}\", which {}", name(column), m.strain_question),
                     "strain: engineering, stretch, log or green_lagrange", "in the item of `data`");
       return;
@@ -276,7 +276,7 @@ struct Reading {
     if (axis.measure != StrainMeasure::stretch || slides) {
       axis.strain_factor *= sign;
     } else if (strain_sign_alone && sign < 0) {
-      say_of_column(column, "strain_sign",
+      report_column(column, "strain_sign",
                     fmt::format("-1 for the stretches of the column \"{}\"", name(column)),
                     "a strain or an elongation", "a stretch below 1 is compression in any case");
     }
@@ -312,7 +312,7 @@ struct Reading {
         note(
             column,
             fmt::format(
-                "the measure of \"{}\" is not told: taken as engineering strain; say strain: engineering, log or green_lagrange",
+                "the measure of \"{}\" is not known: taken as engineering strain; say strain: engineering, log or green_lagrange",
                 name(column)));
     } else if (!documented) {
       say(row->line, row->cells[column].column, "strain",
@@ -423,7 +423,7 @@ struct Reading {
     if (format.time_unit) {
       time_factor = factor(*format.time_unit);
       if (is_time && unit->factor != time_factor) {
-        say_of_column(
+        report_column(
             column, "time_unit",
             fmt::format("{} for the column \"{}\"", word(*format.time_unit), name(column)),
             "the unit that the column's name carries");
@@ -431,7 +431,7 @@ struct Reading {
     } else if (is_time) {
       time_factor = unit->factor;
     } else if (!text.empty()) {
-      say_of_column(column, "time_unit",
+      report_column(column, "time_unit",
                     fmt::format("the unit \"{}\" of the column \"{}\"", text, name(column)),
                     "a unit of time: s, ms, min or h", "time_unit: s in the item of `data`");
     }

@@ -27,7 +27,7 @@ FitOptions options_of(const FitConfig& config, double step) {
 }
 
 // a line at most every two seconds
-std::function<void(const std::string&)> now_and_then(const Voice& voice, const std::string& level) {
+std::function<void(const std::string&)> throttled(const Voice& voice, const std::string& level) {
   return [voice, level, last = wall_seconds()](const std::string& line) mutable {
     if (wall_seconds() - last < 2) return;
     last = wall_seconds();
@@ -46,10 +46,10 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
       problem_(problem),
       cache_(std::make_shared<RunCache>(journal)) {
   if (cache_->read_back() > 0)
-    voice_.say("goes on with {} runs that an earlier fit made", cache_->read_back());
+    voice_.say("continues with {} cached runs of an earlier fit", cache_->read_back());
   scenes_ = std::make_shared<SceneTests>(
       config, where, problem, files, cache_,
-      SceneFitOptions{config.jobs, quotients || is_viscous(config.law), now_and_then(voice, "")});
+      SceneFitOptions{config.jobs, quotients || is_viscous(config.law), throttled(voice, "")});
   if (config.draft) draft_ = scenes_->on_longer_cells(draft_factor);
   problem_.further = scenes_;
 }
@@ -66,7 +66,7 @@ FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const Fit
               "",
               fmt::format("stopped by {}, after {} runs", signal_name(interrupted()), runs()),
               "",
-              "the runs are kept, and the next fit of this config goes on with them"});
+              "the runs are kept, and the next fit of this config continues with them"});
   }
 }
 
@@ -80,12 +80,12 @@ FitResult InverseFit::search() {
         begun = true;
         for (std::size_t i = 0; i < problem_.free.size(); ++i)
           problem_.free[i].start = first.best.p[static_cast<Eigen::Index>(i)];
-        voice_.say("on cells {:g} times as long: {} runs, chi-square {:.4g}", draft_factor,
+        voice_.say("on elements {:g} times as long: {} runs, chi-square {:.4g}", draft_factor,
                    draft_->runs(), 2 * first.best.cost);
       }
     } catch (const Failure& failure) {
       if (interrupted()) throw;
-      voice_.say("cells {:g} times as long are too coarse: {}", draft_factor,
+      voice_.say("elements {:g} times as long are too coarse: {}", draft_factor,
                  failure.errors().front().found);
     }
   }
@@ -124,7 +124,7 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   std::vector<std::string> lines = scenes_->extrapolations(fit.best.p);
   VecX coarse;
   if (!draft_ || !draft_->model(fit.best.p, coarse)) {
-    lines.push_back("what the cells make of the forces is not estimated");
+    lines.push_back("the discretisation error of the forces is not estimated");
     return lines;
   }
   // values of second order in the length of the cells
@@ -150,15 +150,17 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
     words += fmt::format("{}{} by {:.2g}{}", words.empty() ? "" : ", ", p.name,
                          change[static_cast<Eigen::Index>(k)], p.unit == "-" ? "" : " " + p.unit);
   }
-  lines.push_back("without the error of the cells the parameters would change, about: " + words);
+  lines.push_back("without the discretisation error the parameters would change by about: " +
+                  words);
   return lines;
 }
 
 std::vector<std::string> InverseFit::cost() const {
   const double seconds = scenes_->run_seconds() + (draft_ ? draft_->run_seconds() : 0);
-  return {fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(),
-                      scenes_->scenes() > 1 ? "s" : "", seconds,
-                      draft_ ? fmt::format("; {} of them on coarse cells", draft_->runs()) : "")};
+  return {
+      fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(),
+                  scenes_->scenes() > 1 ? "s" : "", seconds,
+                  draft_ ? fmt::format("; {} of them on coarse elements", draft_->runs()) : "")};
 }
 
 std::string parameters_csv(const FitRecord& record) {

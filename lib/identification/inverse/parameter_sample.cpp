@@ -38,14 +38,14 @@ VecX drawn(const FitRecord& fit, int number) {
 
 }  // namespace
 
-std::string why_no_samples(const MaterialFile& file, int number) {
+std::string reason_without_samples(const MaterialFile& file, int number) {
   if (!file.fit) return "no fit";
   if (file.fit->sets.rows() > 0) {
     if (number <= file.fit->sets.rows()) return "";
     return fmt::format("{} sets", file.fit->sets.rows());
   }
   if (with_variance(*file.fit).empty()) {
-    return "a fit that does not tell how well its parameters are known";
+    return "a fit without standard errors of its parameters";
   }
   return "";
 }

@@ -21,7 +21,7 @@ struct ParameterSample {
 };
 
 // why there is no set of that number; empty: there is one
-std::string why_no_samples(const MaterialFile& file, int number);
+std::string reason_without_samples(const MaterialFile& file, int number);
 ParameterSample sample_of(const MaterialFile& file, int number);  // from 1
 
 }  // namespace langer

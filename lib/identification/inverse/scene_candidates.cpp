@@ -85,8 +85,9 @@ class SceneOf {
 
  private:
   std::optional<std::string> friction_of(std::size_t i) const {
-    const auto number =
-        problem_.free[i].of_law() ? std::nullopt : scene_number(config_, problem_.free[i].key);
+    const auto number = problem_.free[i].is_material_number()
+                            ? std::nullopt
+                            : scene_number(config_, problem_.free[i].key);
     if (number && number->of == SceneNumber::Of::friction) {
       return std::optional(number->contact);
     }
@@ -169,7 +170,7 @@ class SceneOf {
       const FreeParameter& p = problem_.free[i];
       const auto k = static_cast<Eigen::Index>(i);
       const auto friction = friction_of(i);
-      if (p.of_law() || (friction && scene.contacts.count(*friction))) {
+      if (p.is_material_number() || (friction && scene.contacts.count(*friction))) {
         by.keys.push_back(p.key);
         by.of.push_back({k, 1});
       }

@@ -154,13 +154,16 @@ bool SceneTests::slope(const VecX& p, MatX& J) {
   std::vector<Path> paths;
   if (!paths_at(p, paths)) return false;
   J = MatX::Zero(measured_.size(), p.size());
-  if (!(options_.quotients ? by_quotients(p, paths, J) : by_runs(p, paths, J))) return false;
-  by_measuring(p, paths, J);
+  if (!(options_.quotients ? add_difference_quotients(p, paths, J)
+                           : add_path_sensitivities(p, paths, J)))
+    return false;
+  add_instrument_columns(p, paths, J);
   return true;
 }
 
 // of what the runs differentiated themselves; numbers that follow others count with them
-bool SceneTests::by_runs(const VecX& p, const std::vector<Path>& paths, MatX& J) const {
+bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& paths,
+                                        MatX& J) const {
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const ForwardPath& path = *paths[tests_[i].run];
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
@@ -174,7 +177,7 @@ bool SceneTests::by_runs(const VecX& p, const std::vector<Path>& paths, MatX& J)
 }
 
 // one more run of each scene for each number, a step to the side that the box leaves
-bool SceneTests::by_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J) {
+bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J) {
   std::vector<Wanted> wanted;
   std::vector<std::pair<std::size_t, double>> steps;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
@@ -208,7 +211,8 @@ bool SceneTests::by_quotients(const VecX& p, const std::vector<Path>& paths, Mat
   return true;
 }
 
-void SceneTests::by_measuring(const VecX& p, const std::vector<Path>& paths, MatX& J) const {
+void SceneTests::add_instrument_columns(const VecX& p, const std::vector<Path>& paths,
+                                        MatX& J) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     for (std::size_t k = 0; k < tests_.size(); ++k) {
       const SceneTest& test = tests_[k];

@@ -75,9 +75,9 @@ class SceneTests : public FurtherTests {
   enum class Read { values, rate };
   bool read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
             Read what, VecX& out) const;
-  bool by_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J);
-  bool by_runs(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
-  void by_measuring(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
+  bool add_difference_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J);
+  bool add_path_sensitivities(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
+  void add_instrument_columns(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
   void add_run(std::size_t item, double longer, std::map<std::string, std::size_t>& known);
   void add_numbers();
   void add_tests();

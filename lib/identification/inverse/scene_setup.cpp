@@ -20,9 +20,9 @@ Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
   Tree tree = load_yaml(data.solve.path);
   if (!data.mesh.path.empty()) {
     if (tree.find("mesh"))
-      throw Failure(Exit::config,
-                    Error{where(at + "mesh"), at + "mesh",
-                          "found beside the mesh in " + data.solve.path, "one of the two", ""});
+      throw Failure(Exit::config, Error{where(at + "mesh"), at + "mesh",
+                                        "found together with the mesh in " + data.solve.path,
+                                        "one of the two", ""});
     set_value(tree, "mesh", load_yaml(data.mesh.path));
   }
   Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
@@ -141,7 +141,7 @@ void SceneTests::add_run(std::size_t item, double longer,
 
 bool SceneTests::offset_free(std::size_t item) const {
   return std::any_of(law_.free.begin(), law_.free.end(), [&](const FreeParameter& p) {
-    const auto number = p.of_law() ? std::nullopt : scene_number(config_, p.key);
+    const auto number = p.is_material_number() ? std::nullopt : scene_number(config_, p.key);
     return number && number->of != SceneNumber::Of::friction && number->data == item;
   });
 }
@@ -207,7 +207,7 @@ void SceneTests::add_numbers() {
       throw Failure(Exit::config,
                     Error{where_(key), key, std::move(found), std::move(expected), ""});
     };
-    if (const auto number = p.of_law() ? std::nullopt : scene_number(config_, p.key)) {
+    if (const auto number = p.is_material_number() ? std::nullopt : scene_number(config_, p.key)) {
       if (number->of == SceneNumber::Of::friction) {
         one.contact = number->contact;
         std::set<std::string> contacts;

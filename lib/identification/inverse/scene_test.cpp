@@ -81,7 +81,7 @@ std::function<double(double)> travel_of(const FitData& data, const SolveConfig& 
   const ContactConfig& contact = indenter_of(data, scene)->second;
   if (contact.control || contact.motion.empty())
     refuse_scene(where, key, "an indenter that is pushed: its travel is an answer",
-                 "force beside it, or t, or time where the path has seconds");
+                 "force next to it, or t, or time where the path has seconds");
   std::vector<HistoryPoint<Vec3>> motion;
   for (const WaypointConfig& point : contact.motion)
     motion.push_back(

@@ -151,7 +151,7 @@ void Sensitivity::advance(const StepRecord& record) {
                   "the tangent at t = {:.6g} is singular: the state has no derivative with respect to {}",
                   record.t, parameters()[i].key),
               "",
-              "without the key the path goes on"});
+              "without the key the path continues"});
     d.push_back(*found);
   }
   const std::vector<VecX> reactions = tangent.reactions(all, d, &of_movement);

@@ -55,17 +55,17 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   return known;
 }
 
-ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file,
-                                  const Run::Where& where) {
+ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& material_file,
+                                       const Run::Where& where) {
   if (config.uncertainty.value_or(UncertaintyBy::none) == UncertaintyBy::none) return {};
   const bool holds_a_fit = std::filesystem::path(material_file).extension() == ".h5";
   ParameterKnowledge known = ParameterKnowledge{};
   if (holds_a_fit) known = knowledge_of(read_material(material_file));
   if (known.names.empty())
-    throw Failure(Exit::config,
-                  Error{where("uncertainty"), "uncertainty",
-                        "linear, without a fit that tells how well its parameters are known",
-                        "--material with a material.h5 of langer-fit that holds a covariance", ""});
+    throw Failure(
+        Exit::config,
+        Error{where("uncertainty"), "uncertainty", "linear, without a fit that has standard errors",
+              "--material with a material.h5 of langer-fit that holds a covariance", ""});
   for (const std::string& key : known.keys)
     if (auto& list = config.sensitivity; std::find(list.begin(), list.end(), key) == list.end())
       list.push_back(key);
@@ -185,9 +185,9 @@ std::string in_words(const ForceUncertainty& force, std::optional<double> cells)
   return words + ")";
 }
 
-void say_forces(const Voice& voice, const ParameterKnowledge& known,
-                const std::vector<ForceUncertainty>& forces,
-                const std::vector<ErrorEstimate>& errors) {
+void report_forces(const Voice& voice, const ParameterKnowledge& known,
+                   const std::vector<ForceUncertainty>& forces,
+                   const std::vector<ErrorEstimate>& errors) {
   for (const ForceUncertainty& force : forces) {
     std::optional<double> cells;
     for (const ErrorEstimate& error : errors)
@@ -197,7 +197,7 @@ void say_forces(const Voice& voice, const ParameterKnowledge& known,
   if (known.left_out.empty()) return;
   std::string names;
   for (const std::string& name : known.left_out) append(names, ", ", name);
-  voice.say("not among its parameters, since the fit gives them no variance: {}", names);
+  voice.say("not included, since the fit gives them no variance: {}", names);
 }
 
 }  // namespace langer

@@ -30,8 +30,8 @@ ParameterKnowledge knowledge_of(const MaterialFile& file);
 // Where config asks for `uncertainty`: of the material's file (empty: there is none). The
 // parameters are those of config.sensitivity then, beside those named there. Throws Failure(config)
 // where the file tells nothing of them.
-ParameterKnowledge take_uncertain(SolveConfig& config, const std::string& material_file,
-                                  const Run::Where& where);
+ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& material_file,
+                                       const Run::Where& where);
 
 // One force at the end of the path.
 struct ForceUncertainty {
@@ -66,9 +66,9 @@ class Uncertainty {
 };
 
 std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces);
-void say_forces(const Voice& voice, const ParameterKnowledge& known,
-                const std::vector<ForceUncertainty>& forces,
-                const std::vector<ErrorEstimate>& errors);
+void report_forces(const Voice& voice, const ParameterKnowledge& known,
+                   const std::vector<ForceUncertainty>& forces,
+                   const std::vector<ErrorEstimate>& errors);
 // "force 9.44 N +- 0.9 % (cells) +- 24 % (parameters; 5.1 % if c1 were known, 8 % if a1 were
 // known)"; cells: [N]
 std::string in_words(const ForceUncertainty& force, std::optional<double> cells);

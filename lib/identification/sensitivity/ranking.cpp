@@ -25,7 +25,7 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
     errors.push_back({where(key), key, std::move(found), std::move(expected), std::move(hint)});
   };
   if (asked.empty())
-    say("parameters", "none, and the material comes from no fit", "numbers to rank, with bounds");
+    say("parameters", "none, and the material was not fitted", "numbers to rank, with bounds");
 
   Ranking ranking;
   for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -58,14 +58,13 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
       n.lower = fitted->lower;
       n.upper = fitted->upper;
     } else
-      say(at, p.key + " has no bounds, and the material comes from no fit of it",
-          "lower and upper, or around");
+      say(at, p.key + " has no bounds, and it was not fitted", "lower and upper, or around");
     if ((p.lower || p.around || fitted) && !(n.lower < n.upper))
-      say(at, fmt::format("{} = {} leaves no room between the bounds", p.key, n.value),
-          "lower < upper");
+      say(at, fmt::format("{} = {} gives an empty range", p.key, n.value), "lower < upper");
     if (n.lower < one->range.low || n.upper > one->range.high)
       say(at, fmt::format("bounds {} and {}", n.lower, n.upper),
-          fmt::format("within {} and {}, as the law asks", one->range.low, one->range.high));
+          fmt::format("within {} and {}, as the material model requires", one->range.low,
+                      one->range.high));
     ranking.numbers.push_back(n);
     ranking.keys.push_back(one->key);
   }

@@ -26,7 +26,7 @@ struct RankedParameter {
     v(&RankedParameter::lower, "lower", unit::none, "lower bound, in the unit of the number");
     v(&RankedParameter::upper, "upper", unit::none, "upper bound");
     v(&RankedParameter::around, "around", unit::none,
-      "in place of bounds: the value less and plus this part of its size; with neither, the bounds of the fit",
+      "instead of bounds: the value minus and plus this fraction of its size; with neither, the bounds of the fit",
       positive);
   }
 };
@@ -126,7 +126,8 @@ struct SensitivityConfig {
         all.push_back(
             {at, p.lower ? "lower without upper" : "upper without lower", "both or neither", ""});
       else if (p.lower && p.around)
-        all.push_back({at + ".around", "around beside lower and upper", "one of the two", ""});
+        all.push_back(
+            {at + ".around", "around together with lower and upper", "one of the two", ""});
       else if (p.lower && !(*p.lower < *p.upper))
         all.push_back({at + ".upper", "found " + number_text(*p.upper),
                        "more than lower, " + number_text(*p.lower), ""});

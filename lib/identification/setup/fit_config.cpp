@@ -23,7 +23,7 @@ std::vector<Complaint> FitData::complaints() const {
     all.push_back({"time_to", "found " + number_text(*time_to),
                    "more than time_from, " + number_text(*time_from), ""});
   if (weight && standard_deviation)
-    all.push_back({"weight", "beside standard_deviation", "one of the two",
+    all.push_back({"weight", "found together with standard_deviation", "one of the two",
                    "the weight is 1/standard_deviation"});
   if (is_scene()) {
     complain_of_scene(all);
@@ -63,17 +63,17 @@ std::vector<Complaint> FitData::complaints() const {
     all.push_back({"columns.strain_z", "found in a test without stress along z",
                    "kind: biaxial, equibiaxial or pure_shear, or no strain_z", ""});
   else if (own_grids && columns->stress_z.empty())
-    all.push_back({"columns.stress_z", "missing beside strain_z",
+    all.push_back({"columns.stress_z", "missing, with strain_z given",
                    "the stress along z, at the deformations of strain_z", ""});
   if (columns && !columns->time.empty()) {
     const std::string whole = "a history, of which no part can be left out";
-    if (toe) all.push_back({"toe", "found beside columns.time", "none: " + whole, ""});
+    if (toe) all.push_back({"toe", "found together with columns.time", "none: " + whole, ""});
     if (strain_from)
-      all.push_back({"strain_from", "found beside columns.time", "none: " + whole,
+      all.push_back({"strain_from", "found together with columns.time", "none: " + whole,
                      "time_from begins it later"});
     if (strain_to)
-      all.push_back(
-          {"strain_to", "found beside columns.time", "none: " + whole, "time_to ends it earlier"});
+      all.push_back({"strain_to", "found together with columns.time", "none: " + whole,
+                     "time_to ends it earlier"});
     if (own_grids)
       all.push_back({"columns.time", "found with a grid of its own for each axis",
                      "both axes at the same instants", ""});
@@ -84,8 +84,8 @@ std::vector<Complaint> FitData::complaints() const {
         all.push_back({key, "found without a column of times", "columns: {time: ...}", ""});
   }
   if (toe && zero_at == ZeroAt::start)
-    all.push_back(
-        {"toe", "found beside zero_at: start", "one of the two", "both say what is at rest"});
+    all.push_back({"toe", "found together with zero_at: start", "one of the two",
+                   "both define the undeformed state"});
   if (toe && kind == DataKind::simple_shear)
     all.push_back({"toe", "found in simple shear", "a test that stretches", ""});
   if (toe && own_grids)
@@ -101,7 +101,7 @@ std::vector<Complaint> FitData::complaints() const {
 void FitConfig::complete(Tree& tree) {
   for (auto& entry : tree.map)
     if (entry.key == "data")
-      for (Tree& item : entry.value.list) add_what_the_file_says(item);
+      for (Tree& item : entry.value.list) add_keys_of_measured_file(item);
 }
 
 // The bounds of a number whose listing names none. A shear modulus or coefficient of an energy may
@@ -219,7 +219,7 @@ Complaint unknown(const std::string& at, const std::string& key,
     append(list, ", ", k.key);
   }
   const std::string near = nearest(key, keys);
-  return {at, "the law has no number \"" + key + "\"", "one of " + list, did_you_mean(near)};
+  return {at, "the material has no number \"" + key + "\"", "one of " + list, did_you_mean(near)};
 }
 
 // what is wrong with one tie whose text was understood; `whole` follows chains to their ends
@@ -234,13 +234,13 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
   if (of == known.end()) all.push_back(unknown(at + "follows", tie.of, known));
   if (tied == known.end() || of == known.end()) return;
   if (tie.key == tie.of)
-    return all.push_back(
-        {at + "follows", "\"" + tie.key + "\" tied to itself", "another number of the law", ""});
+    return all.push_back({at + "follows", "\"" + tie.key + "\" tied to itself",
+                          "another number of the material", ""});
   const std::vector<FreeParameter> free = free_parameters(config);
   if (std::any_of(free.begin(), free.end(),
                   [&](const FreeParameter& p) { return p.key == tie.key; }))
     return all.push_back({at + "key",
-                          "\"" + tie.key + "\" is tied and stands among the parameters to find",
+                          "\"" + tie.key + "\" is tied and also among the parameters to find",
                           "one of the two", "bounds belong to " + tie.of + ", which it follows"});
   if (tied->unit != of->unit)
     return all.push_back(
@@ -264,19 +264,19 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
           {at + "follows",
            fmt::format("{} would be {} where {} is {}", tie.key, number_text(end), whole.of,
                        number_text(whole.factor != 0 ? (end - whole.offset) / whole.factor : from)),
-           fmt::format("between {} and {}, as the law asks", number_text(tied->range.low),
-                       number_text(tied->range.high)),
+           fmt::format("between {} and {}, as the material model requires",
+                       number_text(tied->range.low), number_text(tied->range.high)),
            "other bounds of " + whole.of + ", or another factor"});
 }
 
 void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.dilatation == Dilatation::compressible)
-    all.push_back({"dilatation", "compressible, and a viscous law", "incompressible", ""});
+    all.push_back({"dilatation", "compressible, and a viscous material", "incompressible", ""});
   for (std::size_t i = 0; i < config.data.size(); ++i)
     if (const auto& columns = config.data[i].columns;
         !config.data[i].is_scene() && (!columns || columns->time.empty()))
-      all.push_back({fmt::format("data[{}].columns.time", i), "missing, and the law is viscous",
-                     "the column of times in s",
+      all.push_back({fmt::format("data[{}].columns.time", i),
+                     "missing, and the material is viscous", "the column of times in s",
                      "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
 }
 
@@ -286,7 +286,7 @@ void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all)
     all.push_back(
         {"cross_check", "found in a fit with scenes", "none", "it takes thousands of runs"});
   if (config.dilatation == Dilatation::compressible)
-    all.push_back({"dilatation", "compressible, beside scenes", "incompressible",
+    all.push_back({"dilatation", "compressible, in a fit with scenes", "incompressible",
                    "scenes count the volume term anyway"});
   if (config.noise_model != NoiseKind::automatic && config.noise_model != NoiseKind::white)
     all.push_back({"noise",
@@ -300,8 +300,8 @@ void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all)
   for (std::size_t i = 0; i < config.data.size(); ++i) {
     const FitData& data = config.data[i];
     if (!data.is_scene() && data.weight)
-      all.push_back({fmt::format("data[{}].weight", i), "found beside scenes",
-                     "standard_deviation: what weighs MPa against N", ""});
+      all.push_back({fmt::format("data[{}].weight", i), "found in a fit with scenes",
+                     "standard_deviation, which makes MPa and N comparable", ""});
   }
 }
 
@@ -322,7 +322,7 @@ void complain_about_ties(const FitConfig& config, const std::vector<MaterialPara
     if (!parse_tie(one.key, one.follows)) {
       all.push_back(
           {at + "follows", "found \"" + one.follows + "\"",
-           "a number of the law, with a sign, a factor or an offset",
+           "a number of the material, with a sign, a factor or an offset",
            "such as fibres[0].alpha, -fibres[0].alpha, 0.5 * fibres[0].hgo.c1 or fibres[0].alpha + 90"});
       continue;
     }
@@ -397,15 +397,17 @@ std::vector<Complaint> FitConfig::complaints() const {
     if (lower < range.low || (lower == range.low && !range.low_included))
       all.push_back({at + "lower", "found " + number_text(lower),
                      std::string("a number ") + (range.low_included ? ">= " : "> ") +
-                         number_text(range.low) + ", as the law asks",
+                         number_text(range.low) + ", as the material model requires",
                      ""});
     if (upper > range.high)
       all.push_back({at + "upper", "found " + number_text(upper),
-                     "a number <= " + number_text(range.high) + ", as the law asks", ""});
+                     "a number <= " + number_text(range.high) + ", as the material model requires",
+                     ""});
     if (free[i].start < lower || free[i].start > upper)
-      all.push_back({at + (p.start ? "start" : "key"), "starts at " + number_text(free[i].start),
-                     "a value between " + number_text(lower) + " and " + number_text(upper),
-                     p.start ? "" : "the start is the law's own value unless `start` is given"});
+      all.push_back(
+          {at + (p.start ? "start" : "key"), "starts at " + number_text(free[i].start),
+           "a value between " + number_text(lower) + " and " + number_text(upper),
+           p.start ? "" : "the start is the material's own value unless `start` is given"});
   }
   complain_about_ties(*this, known, all);
   if (has_scenes()) complain_about_scenes(*this, all);

@@ -105,32 +105,32 @@ struct FitData {
     v(&FitData::kind, "kind", unit::none,
       "what the test imposes; scene: what the config `solve` does");
     v(&FitData::solve, "solve", unit::none,
-      "config of langer-solve that the test is; its material gives way to the law, bodies under `materials` keep theirs");
+      "config of langer-solve that simulates the test; its material is replaced by that of the fit, bodies under `materials` keep theirs");
     v(&FitData::mesh, "mesh", unit::none, "config of langer-mesh for it, where `solve` has none");
     v(&FitData::on, "on", unit::none,
       "set or point of the scene that was measured; of a force the contact's name, if there are several");
     v(&FitData::moved, "moved", unit::none,
       "set of the scene whose imposed displacement or pressure it was measured over");
     v(&FitData::touch_offset, "touch_offset", unit::mm,
-      "of a scene: travel that was read where the scene begins; may be a parameter, data[i].touch_offset");
+      "of a scene: measured travel at first contact; may be a parameter, data[i].touch_offset");
     v(&FitData::force_offset, "force_offset", unit::N,
-      "of a scene: force that was read at no force; may be a parameter");
+      "of a scene: measured force without contact; may be a parameter");
     v(&FitData::compliance, "compliance", unit::none,
-      "of the machine, in mm/N: of the travel that was read this times the measured force is its own; may be a parameter",
+      "of the machine, in mm/N: this times the measured force is subtracted from the measured travel; may be a parameter",
       at_least(0));
     v(&FitData::columns, "columns", unit::none,
       "which columns to read; without it the file says by its columns' names: strain, strain_percent or stretch, and "
       "cauchy_stress_MPa or nominal_stress_MPa (kPa, Pa), or Force (N) and Extension (mm), for uniaxial, equibiaxial and pure shear "
       "tests");
     v(&FitData::stress, "stress", unit::none,
-      "measure of the stress where its column's name does not tell; in `columns` without either cauchy is taken, and said");
+      "measure of the stress, if the name of its column does not give it; without either, a column of `columns` is taken as cauchy, with a notice");
     v(&FitData::strain, "strain", unit::none,
-      "measure of the deformation where its column's name does not tell; without either stretch where it starts at 1, engineering "
-      "where it starts at 0, and said");
+      "measure of the deformation, if the name of its column does not give it; without either, a column that starts at 1 is taken as "
+      "stretch and one that starts at 0 as engineering, with a notice");
     v(&FitData::stress_unit, "stress_unit", unit::none,
-      "where the column's name does not tell; of a force (N, mN, kN, gf, kgf, lbf) width and thickness make a nominal stress");
+      "if the name of the column does not give it; a force (N, mN, kN, gf, kgf, lbf), width and thickness give a nominal stress");
     v(&FitData::strain_unit, "strain_unit", unit::none,
-      "where the column's name does not tell, fraction by default; of an elongation (mm, um, cm, m, in) gauge_length makes a strain");
+      "if the name of the column does not give it, fraction by default; an elongation (mm, um, cm, m, in) and gauge_length give a strain");
     v(&FitData::decimal, "decimal", unit::none,
       "sign of decimals where the file leaves it open, as 1,234 does");
     v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x",
@@ -159,7 +159,7 @@ struct FitData {
   // how the machine and its operator wrote the file
   static void laboratory_fields(auto& v) {
     v(&FitData::time_unit, "time_unit", unit::none,
-      "of the column of times, where its name does not tell; seconds by default");
+      "of the column of times, if its name does not give it; seconds by default");
     v(&FitData::sign, "sign", unit::none,
       "-1: strains, elongations, stresses and forces change their sign, where the file counts compression or pushing positive; a "
       "stretch stays what it is. 1: they do not, which confirms the file");
@@ -192,9 +192,9 @@ struct FitData {
   // which points count, how much and from where
   static void counted_fields(auto& v) {
     v(&FitData::weight, "weight", unit::none,
-      "of the residuals beside those of other tests; 1 by default", positive);
+      "of the residuals relative to those of other tests; 1 by default", positive);
     v(&FitData::standard_deviation, "standard_deviation", unit::none,
-      "of the measured stress in MPa: the weight is its inverse; beside scenes of every test, of a scene in N or mm: none: study.noise "
+      "of the measured stress in MPa: the weight is its inverse; in a fit with scenes every test needs it, a scene in N or mm; none: study.noise "
       "times its largest value",
       positive);
     v(&FitData::strain_from, "strain_from", unit::none,
@@ -208,7 +208,7 @@ struct FitData {
       "points before this time are history: viscous branches remember them, residuals do not count them; such as a cycle of "
       "preconditioning");
     v(&FitData::zero_at, "zero_at", unit::none,
-      "start: the specimen is at rest until it is first deformed, whatever was read: stretches are divided by the mean stretch read "
+      "start: the specimen is undeformed until it is first moved, whatever was read: stretches are divided by the mean stretch read "
       "until then, the mean stress, an offset of the device, is taken from all");
     v(&FitData::normalised, "normalised", unit::none,
       "stresses or forces over the largest of the test, where sizes are not known: moduli then are shares of it, strengths and times "
@@ -231,24 +231,24 @@ struct FitParameter {
   std::string key;
   std::optional<double> lower, upper, start, truth;
   static void fields(auto& v) {
-    v(&FitParameter::key, "key", unit::none, "path of a number of the law, such as matrix.yeoh.a1",
-      required);
+    v(&FitParameter::key, "key", unit::none,
+      "path of a number of the material, such as matrix.yeoh.a1", required);
     v(&FitParameter::lower, "lower", unit::none,
       "lower bound, in the unit of the number; may be left out unless bounds: custom");
     v(&FitParameter::upper, "upper", unit::none,
       "upper bound; may be left out unless bounds: custom");
     v(&FitParameter::start, "start", unit::none,
-      "where the first search starts; by default the law's own value");
+      "where the first search starts; by default the value in `law`");
     v(&FitParameter::truth, "truth", unit::none,
-      "what it is, where data are made up: told beside what is found");
+      "its true value, for synthetic data: reported next to the value found");
   }
 };
 
 struct FitTie {
   std::string key, follows;
   static void fields(auto& v) {
-    v(&FitTie::key, "key", unit::none, "path of a number of the law that is not among `parameters`",
-      required);
+    v(&FitTie::key, "key", unit::none,
+      "path of a number of the material that is not among `parameters`", required);
     v(&FitTie::follows, "follows", unit::none,
       "path of the number that it follows, with a sign, a factor or an offset if need be: -fibres[0].alpha, "
       "0.5 * fibres[0].hgo.c1, fibres[0].alpha + 90",
@@ -281,29 +281,29 @@ struct FitConfig {
       "energy terms, fibre angles and the numbers that are not fitted", required);
     v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
     v(&FitConfig::ties, "ties", unit::none,
-      "numbers of the law that follow others, such as those of a second family of fibres");
+      "numbers of the material that follow others, such as those of a second family of fibres");
     v(&FitConfig::bounds, "bounds", unit::none,
-      "of parameters that give none. paper: moduli of either sign; admissible: moduli >= 0, so that the law is stable, and a shear "
-      "modulus at rest that the tests can tell from 0 (docs/identification.md)");
+      "of parameters without their own. paper: moduli of either sign; admissible: moduli >= 0, so that the material is stable, and a shear "
+      "modulus at rest that the tests can distinguish from 0 (docs/identification.md)");
     v(&FitConfig::dilatation, "dilatation", unit::none,
       "state of the specimen: the volume term left out (incompressible) or counted (uniaxial tests only)");
     v(&FitConfig::noise_model, "noise", unit::none,
       "of the measured stresses, under which the parameters have the largest likelihood: white (least squares), proportional to the "
       "stress, autoregressive along a curve, or both; auto: the one of lowest AICc, with scenes white");
     v(&FitConfig::leave_one_out, "leave_one_out", unit::none,
-      "predict each test from a fit to the others, and state the error");
+      "predict each test from a fit to the others, and report the error");
     v(&FitConfig::starts, "starts", unit::none,
       "searches: one from the start values, the others from random places in the box; none: 20, with scenes 1",
       between(1, 100000));
     v(&FitConfig::jobs, "jobs", unit::none,
-      "scenes that are solved side by side; the results do not depend on it", between(1, 256));
+      "scenes that are solved in parallel; the results do not depend on it", between(1, 256));
     v(&FitConfig::draft, "draft", unit::none,
-      "of scenes: search on cells twice as long first where the mesh follows from numbers of its config, and go on from there");
+      "of scenes: search on elements twice as long first, if the mesh follows from numbers of its config, and continue from there");
     v(&FitConfig::seed, "seed", unit::none, "of the random places", at_least(0));
     v(&FitConfig::cross_check, "cross_check", unit::none,
       "a cross-check by another method; disagreement is a warning", Formerly{"check"});
     v(&FitConfig::study, "study", unit::none,
-      "what the data tell about the parameters, and where the law is stable; {} for all");
+      "how well the data identify the parameters, and where the material is stable; {} for all");
     v(&FitConfig::figure_style, "figure_style", unit::none, "how figures are made");
   }
   bool has_scenes() const;

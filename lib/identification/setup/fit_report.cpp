@@ -93,9 +93,9 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
     const auto k = static_cast<Eigen::Index>(i);
     const auto known =
         std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
-    record.parameters.push_back({p.of_law() ? known->name : p.name,
-                                 p.of_law() ? known->unit : p.unit, fit.best.p[k], p.lower, p.upper,
-                                 std::sqrt(fit.covariance(k, k))});
+    record.parameters.push_back({p.is_material_number() ? known->name : p.name,
+                                 p.is_material_number() ? known->unit : p.unit, fit.best.p[k],
+                                 p.lower, p.upper, std::sqrt(fit.covariance(k, k))});
     record.parameters.back().key = p.key;
   }
   if (fit.columns.size() > 0) set_intervals(fit, record);
@@ -227,11 +227,11 @@ std::string in_words(const FittedCurve& c) {
     square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
   const double missed = std::sqrt(square / static_cast<double>(c.model.size()));
   return fmt::format(
-      "{:>10}: {} missed by {:.3g} {} (root mean square, {:.2f} standard deviations), {:.3g} % of the largest{}",
+      "{:>10}: {} error {:.3g} {} (root mean square, {:.2f} standard deviations), {:.3g} % of the largest{}",
       c.name, c.quantity, missed, c.unit, missed / c.standard_deviation, c.mean_error_percent,
       std::isnan(c.discretisation_percent)
           ? ""
-          : fmt::format("; cells may make {:.2g} %", c.discretisation_percent));
+          : fmt::format("; discretisation error about {:.2g} %", c.discretisation_percent));
 }
 }  // namespace
 
@@ -379,7 +379,7 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
     if (std::isgreaterequal(value, 0)) continue;
     lines.push_back(
         fmt::format("{} at strain {:.2g}; the curve ends at {:.2g}",
-                    std::isnan(value) ? "the law has no number" : "strong ellipticity is lost",
+                    std::isnan(value) ? "the material has no stress" : "strong ellipticity is lost",
                     i * far / 200, record.strain_max));
     break;
   }

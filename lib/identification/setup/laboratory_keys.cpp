@@ -53,7 +53,7 @@ void FitData::complain_of_laboratory_keys(std::vector<Complaint>& all) const {
   const bool chooses_cycle = cycle == KeptCycle::last || skip_cycles > 0;
   if (chooses_cycle && compare_from) {
     complain("compare_from", "found with a choice of cycles", "one of the two",
-             "both say where the comparison begins");
+             "both define where the comparison begins");
   }
 
   if (!name_pattern.empty()) {

@@ -76,7 +76,7 @@ void FitData::complain_of_scene(std::vector<Complaint>& all) const {
                                                {"displacement", &c.displacement},
                                                {"pressure", &c.pressure}});
   if (over.size() > 1)
-    all.push_back({"columns." + over[1], "found beside " + over[0], "one of them", ""});
+    all.push_back({"columns." + over[1], "found together with " + over[0], "one of them", ""});
   if ((!c.displacement.empty() || !c.pressure.empty()) && moved.empty())
     all.push_back(
         {"moved", "missing", "the set whose displacement or pressure it was measured over", ""});
@@ -90,13 +90,14 @@ void FitData::complain_of_scene(std::vector<Complaint>& all) const {
                    "force, reaction_x, reaction_y, reaction_z, u_x, u_y or u_z", ""});
   if (!forces.empty() && !ways.empty())
     all.push_back(
-        {"columns." + ways[0], "found beside " + forces[0], "forces or displacements",
+        {"columns." + ways[0], "found together with " + forces[0], "forces or displacements",
          "an item of data each, with a standard deviation of its own; items of one `solve` share its runs"});
   const bool at_places = !c.x.empty() || !c.y.empty() || !c.z.empty();
   if (!ways.empty() && at_places == !on.empty())
-    all.push_back({at_places ? "on" : "columns." + ways[0],
-                   at_places ? "found beside columns of places" : "a displacement of no place",
-                   "on: a point or set of the scene, or columns x and z", ""});
+    all.push_back(
+        {at_places ? "on" : "columns." + ways[0],
+         at_places ? "found together with columns of places" : "a displacement of no place",
+         "on: a point or set of the scene, or columns x and z", ""});
   if (std::any_of(forces.begin(), forces.end(),
                   [](const std::string& f) { return f != "force"; }) &&
       on.empty())
@@ -148,11 +149,11 @@ std::vector<Complaint> CandidateChoice::complaints() const {
     const bool moves = measured[i] >= SceneQuantity::u_x;
     const std::string word = names(measured[i])[static_cast<std::size_t>(measured[i])];
     if (measured[i] != SceneQuantity::force && on.empty() && !(moves && !places.empty()))
-      all.push_back({moves ? "places" : "on", "missing beside " + word,
+      all.push_back({moves ? "places" : "on", "missing, with " + word + " measured",
                      moves ? "places on the top, or on: a set" : "the set that is held or moved",
                      ""});
     if (!moves && !places.empty())
-      all.push_back({fmt::format("measured[{}]", i), word + " beside places",
+      all.push_back({fmt::format("measured[{}]", i), word + " together with places",
                      "displacements, and a candidate of its own for the force", ""});
   }
   return all;

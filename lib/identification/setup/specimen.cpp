@@ -85,7 +85,7 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
   return tree;
 }
 
-void add_what_the_file_says(Tree& item) {
+void add_keys_of_measured_file(Tree& item) {
   const Tree* file = item.find("file");
   if (!file || file->kind != Tree::Kind::scalar || file->scalar.empty()) return;
   const fs::path path = (fs::path(file->base) / file->scalar).lexically_normal();
@@ -100,7 +100,7 @@ void add_what_the_file_says(Tree& item) {
   }
   if (other.kind != Tree::Kind::null && is_sidecar(other)) {
     if (said.kind == Tree::Kind::map)
-      refuse(said.place, "found a header beside " + beside.string(), "one of the two",
+      refuse(said.place, "found a header and the file " + beside.string(), "one of the two",
              "both describe the same test");
     said = other;
   }

@@ -20,6 +20,6 @@ Tree csv_header(const std::string& text, const std::string& shown_name);
 
 // Adds to an item of `data` what its file says and the item does not. A file that cannot be read is
 // left to those who need it.
-void add_what_the_file_says(Tree& item);
+void add_keys_of_measured_file(Tree& item);
 
 }  // namespace langer

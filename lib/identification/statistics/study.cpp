@@ -111,7 +111,7 @@ bool set_stress(Test& test, const Material& material, Dilatation dilatation) {
 
 // Noise that is believed in, at least: `least` is the deviation of a weighted value. Where noise is
 // not white all of it grows alike.
-ResidualNoise believed_noise(const FitResult& fit, double least) {
+ResidualNoise noise_at_least(const FitResult& fit, double least) {
   if (fit.noise_model.is_white()) return with_least(fit.noise, least);
   const auto freedom = static_cast<double>(fit.residual.size() - fit.best.p.size());
   const double shown = fit.residual.norm() / std::sqrt(std::max(freedom, 1.));
@@ -131,13 +131,13 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   if (free.empty()) return {};
   const MatX J = fit.best.J(Eigen::all, free);
   const VecX size = s.size(free);
-  const VecX told = s.error(free).cwiseQuotient(size);
+  const VecX relative_error = s.error(free).cwiseQuotient(size);
   const MatX white =
       covariance(J, std::vector<bool>(free.size(), false), white_noise(s.noise, J.rows()));
   double noise = s.noise;
   Eigen::Index worst = 0;
-  if (told.allFinite() && told.maxCoeff(&worst) > 0)
-    noise *= told[worst] * size[worst] / std::sqrt(white(worst, worst));
+  if (relative_error.allFinite() && relative_error.maxCoeff(&worst) > 0)
+    noise *= relative_error[worst] * size[worst] / std::sqrt(white(worst, worst));
   const MatX known = information(J, size, noise);
   std::vector<Candidate> candidates;
   for (const Candidate& scene : scenes)
@@ -204,7 +204,7 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
   const ResidualNoise noise =
-      problem.further ? fit.noise : believed_noise(fit, config.noise * largest);
+      problem.further ? fit.noise : noise_at_least(fit, config.noise * largest);
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
@@ -266,7 +266,7 @@ std::string up_to(const PathStability& p, double end) {
   };
   if (std::isinf(loss) && std::isfinite(p.end))
     return "stable up to " + text(std::floor(1000 * p.end) / 1000) +
-           ", beyond which the law has no number";
+           ", beyond which the material has no stress";
   if (std::isinf(loss)) return "stable up to " + text(end) + ", as far as looked";
   // rounded down: stable as far as said
   std::string s = "stable up to " + text(std::floor(1000 * std::max(0., loss)) / 1000);
@@ -331,7 +331,7 @@ std::vector<std::string> parameter_names(const FitProblem& problem) {
   Material law = problem.law;
   std::vector<std::string> result;
   for (const FreeParameter& f : problem.free) {
-    if (!f.of_law()) result.push_back(f.name);
+    if (!f.is_material_number()) result.push_back(f.name);
     for (const MaterialParameter& p : parameters(law))
       if (p.key == f.key) result.push_back(p.name);
   }
@@ -371,10 +371,10 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
     lines.push_back(
         r.rho > 0
             ? fmt::format(
-                  "with a noise of {:.3g}{}, correlated by {:.3f} from value to value, so that they count as "
-                  "{:.0f} in all, the data tell:",
+                  "identifiability at a noise of {:.3g}{}, correlated by {:.3f} from value to value "
+                  "({:.0f} effective values):",
                   r.noise, of, r.rho, r.effective)
-            : fmt::format("with a noise of {:.3g}{} the data tell:", r.noise, of));
+            : fmt::format("identifiability at a noise of {:.3g}{}:", r.noise, of));
     const bool held = std::find(r.symmetric.begin(), r.symmetric.end(), true) != r.symmetric.end();
     for (std::size_t i = 0; i < r.names.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
@@ -418,7 +418,7 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
         std::isinf(map.safe_hencky)
             ? fmt::format(
                   "stability: no loss of strong ellipticity found up to a Hencky norm of {:.3g}{}",
-                  end, end < 1.2 ? ", beyond which the law has no numbers in some states" : "")
+                  end, end < 1.2 ? ", beyond which the material has no stress in some states" : "")
             : fmt::format(
                   "stability: strongly elliptic in every state up to a Hencky norm of {:.3g}",
                   map.safe_hencky));
