@@ -23,6 +23,7 @@
 namespace langer {
 namespace {
 
+// A fit to homogeneous tests. Errors of the data name the first file.
 FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
   try {
     return fit(problem, {config.searches(), static_cast<unsigned>(config.seed), {}});
@@ -63,6 +64,7 @@ void remove_reached(const Job<FitConfig>& job) {
   std::filesystem::remove(job.beside("reached_fit.csv"), ignored);
 }
 
+// The search of a fit with or without scenes.
 FitResult search(const Job<FitConfig>& job, const FitProblem& problem,
                  std::optional<InverseFit>& scenes) {
   if (scenes) {
@@ -127,6 +129,7 @@ void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
   }
 }
 
+// langer-fit: read, search, report, then tables, figures and the study.
 std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
@@ -161,7 +164,11 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   if (config.cross_check == SecondAnswer::nlopt) {
     const Comparison second = cross_check(likelihood_problem(problem, found), found.best,
                                           static_cast<unsigned>(config.seed));
-    second.agrees ? job.say("{}", second.text) : job.warn("{}", second.text);
+    if (second.agrees) {
+      job.say("{}", second.text);
+    } else {
+      job.warn("{}", second.text);
+    }
   }
   if (!scenes) record.study.range = fitted_range(found.material, problem.tests);
   if (config.study) {
@@ -191,6 +198,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   return read_summary(job.output);
 }
 
+// Files next to the output that the stage writes.
 std::vector<std::string> side_files(const FitConfig& config) {
   std::vector<std::string> names{"parameters.csv"};
   if (!config.data.empty()) names.push_back("fit.csv");

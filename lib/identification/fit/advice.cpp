@@ -10,13 +10,16 @@ namespace langer {
 
 namespace {
 
+// What an information matrix says about the parameters.
 struct Known {
+  // (p) standard errors relative to the size of each parameter; infinity: not determined
   VecX relative;
   double ln_det;
 };
 
-// errors by eigenvalues, in units of the diagonal, so that a nearly singular matrix keeps what is
-// known of the rest
+// Standard errors and log determinant of an information matrix, by its eigenvalues. The matrix is
+// scaled to a unit diagonal first, so that the errors of well determined parameters keep their
+// digits if the matrix is nearly singular.
 Known known(const MatX& M) {
   const auto n = M.rows();
   VecX d = M.diagonal().cwiseSqrt();
@@ -24,6 +27,8 @@ Known known(const MatX& M) {
   for (Eigen::Index i = 0; i < n; ++i)
     if (!(d[i] > 0)) d[i] = 1;
   const MatX scaled = d.cwiseInverse().asDiagonal() * M * d.cwiseInverse().asDiagonal();
+  // The variance of parameter i is the sum of v_i^2 / l over the eigenpairs (l, v). A parameter
+  // with a part in the null space has no finite variance.
   const SymmetricEigen eigen = symmetric_eigen(scaled);
   constexpr double floor = 1e-14;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -51,6 +56,7 @@ MatX information(const MatX& J, const VecX& size, double noise) {
 
 std::vector<Advice> advise(const MatX& so_far, const VecX& size,
                            const std::vector<Candidate>& candidates) {
+  // Rank the candidates by the largest relative error that is left after the new test.
   const Known before = known(so_far);
   std::vector<Advice> all;
   for (const Candidate& c : candidates) {

@@ -8,9 +8,10 @@ namespace langer {
 
 namespace {
 
+// Whether a variable is free or held at one of its bounds: the active set.
 enum class At { free, lower, upper };
 
-// the unconstrained answer in the free variables, the others held
+// The least squares solution in the free variables, while the others stay at their bounds.
 VecX with_free_solved(const MatX& A, const VecX& b, const VecX& x, const std::vector<At>& at) {
   std::vector<Eigen::Index> free;
   VecX rest = b;
@@ -28,6 +29,7 @@ VecX with_free_solved(const MatX& A, const VecX& b, const VecX& x, const std::ve
 
 VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX& upper) {
   const Eigen::Index n = A.cols();
+  // Start at the point of the box closest to zero.
   VecX x = VecX::Zero(n).cwiseMax(lower).cwiseMin(upper);
   std::vector<At> at(static_cast<std::size_t>(n), At::free);
   const auto state = [&](Eigen::Index i) -> At& {
@@ -38,17 +40,21 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
     if (x[i] == upper[i]) state(i) = At::upper;
   }
 
-  // each round lowers the cost or frees one variable: the number of sets is finite, the limit
-  // guards against rounding only
+  // Each round lowers the cost or frees one variable, so the method visits finitely many active
+  // sets. The limit guards against rounding only.
   for (Eigen::Index round = 0; round < 20 * (n + 1); ++round) {
-    // towards the answer of the free variables as far as the box allows
+    // Go to the solution of the free variables, or up to the first bound on the way. A variable
+    // that reaches its bound is held there.
     for (Eigen::Index pass = 0; pass <= n; ++pass) {
       const VecX z = with_free_solved(A, b, x, at);
       double t = 1;
       Eigen::Index hit = -1;
       for (Eigen::Index i = 0; i < n; ++i) {
         if (state(i) != At::free || (z[i] >= lower[i] && z[i] <= upper[i])) continue;
-        const double reach = ((z[i] < lower[i] ? lower[i] : upper[i]) - x[i]) / (z[i] - x[i]);
+        // the part of the way to z at which the variable reaches its bound
+        double bound = upper[i];
+        if (z[i] < lower[i]) bound = lower[i];
+        const double reach = (bound - x[i]) / (z[i] - x[i]);
         if (reach < t || hit < 0) {
           t = std::min(t, reach);
           hit = i;
@@ -59,11 +65,17 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
         break;
       }
       x += t * (z - x);
-      state(hit) = z[hit] < lower[hit] ? At::lower : At::upper;
-      x[hit] = z[hit] < lower[hit] ? lower[hit] : upper[hit];
+      if (z[hit] < lower[hit]) {
+        state(hit) = At::lower;
+        x[hit] = lower[hit];
+      } else {
+        state(hit) = At::upper;
+        x[hit] = upper[hit];
+      }
       x = x.cwiseMax(lower).cwiseMin(upper);
     }
-    // a held variable that wants to leave its bound
+    // Free the held variable with the steepest descent into the box. If there is none, x satisfies
+    // the Kuhn-Tucker conditions.
     const VecX residual = A * x - b;
     const VecX slope = A.transpose() * residual;
     Eigen::Index leaves = -1;
@@ -71,7 +83,10 @@ VecX bounded_linear(const MatX& A, const VecX& b, const VecX& lower, const VecX&
     for (Eigen::Index i = 0; i < n; ++i) {
       if (state(i) == At::free || lower[i] == upper[i]) continue;
       const double size = A.col(i).norm() * residual.norm();
-      const double wish = (state(i) == At::lower ? -slope[i] : slope[i]) / (size > 0 ? size : 1);
+      // the decrease of the cost along the way into the box, as a cosine
+      double wish = slope[i];
+      if (state(i) == At::lower) wish = -slope[i];
+      if (size > 0) wish /= size;
       if (wish > 1e-13 && wish > strongest) {
         strongest = wish;
         leaves = i;

@@ -120,6 +120,7 @@ std::vector<std::string> words_of(const std::string& heading) {
   return words;
 }
 
+// The words of a heading, in lower case.
 class Words {
  public:
   explicit Words(const std::string& text) : all_(words_of(text)) {}
@@ -184,6 +185,8 @@ struct Named {
   }
 };
 
+// The stress measure that the words name. First and second Piola-Kirchhoff must be told apart by a
+// number.
 void name_stress(const Words& words, ColumnMeaning& m) {
   using enum StressMeasure;
   const WordSet piola{"piola", "kirchhoff", "kirchoff", "pk"};
@@ -217,6 +220,7 @@ void name_stress(const Words& words, ColumnMeaning& m) {
   }
 }
 
+// The strain measure that the words name.
 void name_strain(const Words& words, ColumnMeaning& m) {
   using enum StrainMeasure;
   if (words.has(stretch_nouns)) {
@@ -239,6 +243,8 @@ void name_strain(const Words& words, ColumnMeaning& m) {
   }
 }
 
+// Whether the column is a deformation or a stress, and whether it is a length or a force. More than
+// one such noun leaves it open.
 void name_quantity(const Words& words, ColumnMeaning& m) {
   const bool elongation = words.has(length_nouns);
   const bool strain = words.has(strain_nouns) || words.has({"e11", "e22", "e33"});
@@ -272,6 +278,7 @@ void name_quantity(const Words& words, ColumnMeaning& m) {
 }
 
 template <class Unit>
+// The unit of this spelling, if it is one of the enumeration.
 std::optional<Unit> unit_called(const std::string& name) {
   const auto known = names(Unit{});
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -289,6 +296,7 @@ double factor_of_unit(Unit unit) {
   return measured_unit(spelled).value().factor;
 }
 
+// The unit of the heading, or the text of one that is not known.
 void name_unit(const std::string& text, ColumnMeaning& m) {
   const auto unit = measured_unit(text);
   if (unit) {

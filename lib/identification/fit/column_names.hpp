@@ -20,13 +20,13 @@ constexpr auto names(StrainMeasure) {
   return std::array{"engineering", "stretch", "green_lagrange", "log"};
 }
 
-// those from N on are units of a force
+// Units of a stress; those from N on are units of a force.
 enum class StressUnit { MPa, kPa, Pa, GPa, psi, N, mN, kN, gf, kgf, lbf };
 constexpr auto names(StressUnit) {
   return std::array{"MPa", "kPa", "Pa", "GPa", "psi", "N", "mN", "kN", "gf", "kgf", "lbf"};
 }
 
-// those from mm on are units of an elongation, or of the length between marks
+// Units of a strain; those from mm on are units of an elongation or of the length between marks.
 enum class StrainUnit { fraction, percent, mm, um, cm, m, in };
 constexpr auto names(StrainUnit) {
   return std::array{"fraction", "percent", "mm", "um", "cm", "m", "in"};

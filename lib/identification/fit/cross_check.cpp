@@ -12,6 +12,8 @@ namespace langer {
 
 namespace {
 
+// The sum of squares as NLopt sees it. It keeps the best point of all evaluations, because the
+// searches may end elsewhere.
 struct Objective {
   LeastSquares q;
   double scale;  // cost of the data: NLopt sees numbers of order one
@@ -24,6 +26,7 @@ struct Objective {
     MatX J;
     const bool exists =
         q.residual(p, r) && r.allFinite() && (gradient.empty() || jacobian(q, p, J));
+    // A point without a model has a large cost and no gradient: the searches turn away from it.
     double f = 1e6;
     if (exists) f = 0.5 * r.squaredNorm() / scale;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
@@ -41,6 +44,7 @@ struct Objective {
   }
 };
 
+// NLopt takes a function pointer and an untyped argument.
 double objective(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
   return (*static_cast<Objective*>(self))(x, gradient);
 }
@@ -80,6 +84,8 @@ Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& fi
       // rounding stops SLSQP with an exception; the best point seen is kept all the same
     }
   };
+  // First a global search by multistart, then two rounds of a simplex search and a gradient search
+  // from the best point so far.
   nlopt::srand(seed + 1);
   nlopt::opt multistart = configured(nlopt::GN_MLSL_LDS, evaluations / 4);
   multistart.set_local_optimizer(configured(nlopt::LD_SLSQP, 300));
@@ -91,12 +97,14 @@ Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& fi
     search(configured(nlopt::LD_SLSQP, 300), f.best);
   }
 
+  // Costs agree within 1e-4 of themselves, or within the rounding of an exact fit.
   Comparison c;
   c.p = f.best;
   c.cost = f.lowest * f.scale;
   const double allowed = 1e-4 * std::min(c.cost, first.cost) + 1e-10 * f.scale;
   const double higher = c.cost - first.cost;
   c.agrees = std::abs(higher) <= allowed;
+  // The largest relative difference of a parameter between the two optima.
   double apart = 0;
   for (Eigen::Index i = 0; i < c.p.size(); ++i)
     apart = std::max(apart, std::abs(difference(f.q, i, first.p[i], c.p[i])) /

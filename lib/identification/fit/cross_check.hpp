@@ -15,12 +15,12 @@ struct Comparison {
   double cost = 0;
   bool agrees =
       false;  // neither cost is lower by more than 1e-4 of itself and 1e-10 of the data's square
-  std::string text;  // what to tell
+  std::string text;  // the result in one sentence
 };
 
 Comparison cross_check(const FitProblem& problem, const LeastSquaresResult& first, unsigned seed,
                        int evaluations = 20000);
-// of a problem whose least squares are a largest likelihood (likelihood_problem())
+// The same for the least squares problem of a largest likelihood (likelihood_problem()).
 Comparison cross_check(const LeastSquares& problem, const LeastSquaresResult& first, unsigned seed,
                        int evaluations = 20000);
 

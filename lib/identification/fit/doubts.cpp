@@ -9,24 +9,23 @@ namespace langer {
 
 namespace {
 
+// The range of a test: largest strain and stress.
 struct Reach {
   double strain = 0,
          stress = 0;  // largest amounts; strain: of engineering strains, or of the shear
   double secant() const { return stress / strain; }
 };
 
-double strain_of(const Test& test, double value) {
-  if (test.kind == TestKind::simple_shear) return value;
-  return value - 1;
-}
-
+// Engineering strains of both axes count, and the amount of simple shear.
 Reach reach(const Test& test) {
   Reach r{0, largest_stress(test)};
-  for (double x : test.first) r.strain = std::max(r.strain, std::abs(strain_of(test, x)));
+  for (double x : test.first) r.strain = std::max(r.strain, std::abs(strain_of(test.kind, x)));
   for (double x : test.second) r.strain = std::max(r.strain, std::abs(x - 1));
   return r;
 }
 
+// Warns if strains or stiffnesses are outside the range of soft tissues and rubbers: probably a
+// wrong unit.
 void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) {
   constexpr double most_strain = 9, least_strain = 0.01;  // rubber breaks at 8 to 10
   if (r.strain > most_strain)
@@ -40,7 +39,9 @@ void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) 
   if (!(r.strain > 0) || !(r.stress > 0)) return;
   // tendon and cartilage have up to some 1000 MPa at strains of 0.1, skin and rubber 0.01 to 100,
   // brain and fat some 0.001
-  const double most = r.strain > 0.15 ? 100 : 5000, least = 1e-5;
+  double most = 5000;
+  if (r.strain > 0.15) most = 100;
+  constexpr double least = 1e-5;
   if (r.strain <= most_strain && r.secant() > most)
     all.push_back(fmt::format(
         "test {}: {:.3g} MPa at a strain of {:.2g}, {:.2g} MPa a unit of strain: more than soft tissue or rubber; is the stress in kPa?",
@@ -51,15 +52,11 @@ void add_units(std::vector<std::string>& all, const Test& test, const Reach& r) 
         test.name, r.stress, r.strain));
 }
 
+// Warns about a stress at rest, and about a deformation that reverses in a test fitted as loading.
 void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) {
   constexpr double at_rest = 0.01, offset = 0.1, back = 0.05;
-  const double first = strain_of(test, test.first[0]);
-  double z = 0;
-  if (test.second.empty()) {
-    z = 0;
-  } else {
-    z = test.second[0] - 1;
-  }
+  const double first = strain_of(test.kind, test.first[0]);
+  const double z = test.second_at(0) - 1;
   if (std::abs(first) < at_rest * r.strain && std::abs(z) < at_rest * r.strain &&
       std::abs(test.stress_x[0]) > offset * r.stress)
     all.push_back(fmt::format(
@@ -76,7 +73,7 @@ void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) 
   bool rose = false;
   bool fell = false;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    const double e = strain_of(test, test.first[i]);
+    const double e = strain_of(test.kind, test.first[i]);
     const bool falls = rose && e < highest - noise;
     const bool rises = fell && e > lowest + noise;
     if (falls || rises) {
@@ -94,6 +91,7 @@ void add_shape(std::vector<std::string>& all, const Test& test, const Reach& r) 
 
 }  // namespace
 
+// Checks each test alone, then compares the stiffest with the softest one.
 std::vector<std::string> doubts(const std::vector<Test>& tests) {
   std::vector<std::string> all;
   const Test *softest = nullptr, *stiffest = nullptr;

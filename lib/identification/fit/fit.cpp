@@ -20,6 +20,8 @@ namespace {
 // in [0, 1), the same on every platform
 double uniform(std::mt19937_64& rng) { return static_cast<double>(rng() >> 11) * 0x1p-53; }
 
+// The numbers of `material` behind the free parameters, in their order; without a pointer for those
+// that are no numbers of the material.
 std::vector<MaterialParameter> chosen(Material& material, const std::vector<FreeParameter>& free) {
   const std::vector<MaterialParameter> all = parameters(material);
   std::vector<MaterialParameter> list;
@@ -71,7 +73,7 @@ struct Model {
   }
 };
 
-// whether nothing of the state has to be found: then the stress is linear in every modulus
+// Whether the whole deformation is imposed. The stress is then linear in every modulus.
 bool imposed(const Test& test, const Material& law) {
   if (law.fibres.empty()) return true;
   return test.kind == TestKind::simple_shear ||
@@ -87,8 +89,8 @@ double period(const FitProblem& problem, const FreeParameter& p, const std::stri
   return 180;
 }
 
-// One search, told within the box. An angle that turned as far as the wider box of the search
-// allows goes on from there.
+// One search. Angles are returned within their box; an angle that reached the end of the wider box
+// of the search continues from there.
 LeastSquaresResult search(const FitProblem& problem, LeastSquares& q,
                           const LeastSquaresOptions& options) {
   LeastSquaresResult one;
@@ -150,8 +152,11 @@ void set_covariance(const FitProblem& problem, const LeastSquares& q, FitResult&
   fit.noise = noise();
   std::vector<double> turn;
   Material law = problem.law;
-  for (const MaterialParameter& p : chosen(law, problem.free))
-    turn.push_back(p.unit == unit::deg ? 180 : 0);
+  for (const MaterialParameter& p : chosen(law, problem.free)) {
+    double half_turn = 0;
+    if (p.unit == unit::deg) half_turn = 180;
+    turn.push_back(half_turn);
+  }
   const SymmetricAngles found = symmetric_angles(q, best, fit.noise.total(), turn);
   fit.symmetric = found.at;
   fit.columns = found.columns;
@@ -166,6 +171,7 @@ void set_covariance(const FitProblem& problem, const LeastSquares& q, FitResult&
   }
 }
 
+// R2 and errors of one curve, in percent of the largest value.
 FitQuality quality(const VecX& model, const VecX& stress, double largest) {
   FitQuality q;
   const VecX error = model - stress;
@@ -210,7 +216,7 @@ void set_errors(const FitProblem& problem, const VecX& stress, FitResult& fit) {
   fit.quality.mean_error_percent /= static_cast<double>(stressed);
 }
 
-// of values of several units: each curve about its own mean, weighted
+// R2 of values with several units: each curve is compared with its own mean, weighted.
 double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult& fit) {
   const VecX weight = weights(problem.tests);
   double spread = 0;
@@ -227,7 +233,7 @@ double r2_of_all(const FitProblem& problem, const VecX& stress, const FitResult&
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// NaN where there are too few values
+// Akaike's criterion with the correction for few values; NaN if there are too few for it.
 double aicc(double minus_two_log_likelihood, const FitProblem& problem, const NoiseModel& noise) {
   double n = 0;
   if (problem.further) n = static_cast<double>(problem.further->measured().size());
@@ -237,6 +243,7 @@ double aicc(double minus_two_log_likelihood, const FitProblem& problem, const No
   return minus_two_log_likelihood + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
+// Sets R2, errors, AICc and BIC of a fit.
 void set_quality(const FitProblem& problem, FitResult& fit) {
   const VecX stress = measured_stress(problem.tests);
   const auto n = static_cast<double>(fit.best.r.size());
@@ -282,6 +289,7 @@ LeastSquares with_further(LeastSquares q, const std::shared_ptr<FurtherTests>& f
 
 }  // namespace
 
+// The stresses of a test in its imposed states. Viscous materials go through the history first.
 bool model_stress(const Material& material, const Test& test, Dilatation dilatation,
                   double* stress) {
   if (dilatation == Dilatation::compressible) {
@@ -297,10 +305,17 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
   std::optional<double> then;  // at rest until the first point
   const auto state_at = [&](const auto& points, std::size_t i) {
     PointMemory memory;
-    if (point) memory = point->begin(then ? points.time[i] - *then : 0);
-    const PlaneState state = plane_state(material, a, test.kind, points.first[i],
-                                         points.second.empty() ? 1 : points.second[i], test.shear,
-                                         point ? &memory : nullptr);
+    const PointMemory* known_memory = nullptr;
+    if (point) {
+      double passed = 0;
+      if (then) passed = points.time[i] - *then;
+      memory = point->begin(passed);
+      known_memory = &memory;
+    }
+    double second = 1;
+    if (!points.second.empty()) second = points.second[i];
+    const PlaneState state =
+        plane_state(material, a, test.kind, points.first[i], second, test.shear, known_memory);
     if (state.converged && point) {
       point->accept(state.F);
       then = points.time[i];
@@ -319,6 +334,7 @@ bool model_stress(const Material& material, const Test& test, Dilatation dilatat
   return true;
 }
 
+// All measured stresses, in the order of the header.
 VecX measured_stress(const std::vector<Test>& tests) {
   std::vector<double> all;
   for (const Test& test : tests)
@@ -327,6 +343,7 @@ VecX measured_stress(const std::vector<Test>& tests) {
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+// The number of values of each measured curve: correlated noise ends where a curve ends.
 std::vector<Eigen::Index> curve_sizes(const FitProblem& problem) {
   std::vector<Eigen::Index> sizes;
   for (const Test& test : problem.tests)
@@ -370,6 +387,7 @@ Standardizer standardizer(const FitProblem& problem, const NoiseModel& noise) {
   return {weighted_stress(problem), curve_sizes(problem), values_at_rest(problem.tests), noise};
 }
 
+// The material at p, tied numbers included.
 Material with_parameters(const FitProblem& problem, const VecX& p) {
   Material material = problem.law;
   const auto list = chosen(material, problem.free);
@@ -379,6 +397,8 @@ Material with_parameters(const FitProblem& problem, const VecX& p) {
   return material;
 }
 
+// Bounds, typical sizes and periods of the parameters. Moduli are linear if the stress state is
+// imposed: the energy is a sum of moduli times functions of the deformation.
 LeastSquares least_squares_problem(const FitProblem& problem) {
   const auto model = std::make_shared<Model>(problem);
   const auto n = static_cast<Eigen::Index>(problem.free.size());
@@ -401,7 +421,9 @@ LeastSquares least_squares_problem(const FitProblem& problem) {
     q.lower[i] = p.lower;
     q.upper[i] = p.upper;
     const double width = p.upper - p.lower;
-    q.typical[i] = std::max(std::abs(p.start), std::isfinite(width) ? 0.01 * width : 0.1);
+    double least_size = 0.1;
+    if (std::isfinite(width)) least_size = 0.01 * width;
+    q.typical[i] = std::max(std::abs(p.start), least_size);
     // every energy is a sum of moduli times functions of the rest
     q.linear.push_back(linear && list[static_cast<std::size_t>(i)].unit == std::string(unit::MPa));
     q.period.push_back(period(problem, p, list[static_cast<std::size_t>(i)].unit));
@@ -470,6 +492,7 @@ void keep_likelier(Likeliest& best, Likeliest other) {
   if (better || none_converged) best = std::move(other);
 }
 
+// The most general noise model that a kind allows.
 NoiseModel largest_noise(const FitProblem& problem, NoiseKind kind) {
   NoiseModel noise;
   noise.kind = kind;
@@ -588,6 +611,8 @@ LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
   return search(problem, q, options);
 }
 
+// Searches from the given start and from random places, then alternates between noise and
+// parameters.
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
   std::size_t values = 0;
   if (problem.further) {

@@ -2,8 +2,8 @@
 // 35-36
 //   min over p of  1/2 sum_i w_i^2 (model_i(p) - stress_i)^2,  lower <= p <= upper
 // The values stand in the order of the tests; within a test all x components, then all z
-// components. An angle whose box holds 180 degrees is periodic: it has no bounds, and an answer is
-// told within the box. The search starts at the given values and at seeded random places of the
+// components. An angle whose box holds 180 degrees is periodic: it has no bounds, and the result
+// is given within the box. The search starts at the given values and at seeded random places of the
 // box; the lowest cost wins, the first of equals. Everything here may run on several threads at
 // once, each with its own problem or result.
 // Where the noise of tests is not white (noise_model.hpp), parameters and noise are those of
@@ -125,7 +125,7 @@ LeastSquaresResult fit_from(const FitProblem& problem, const VecX& start,
                             const LeastSquaresOptions& options = {});
 
 // Throws Failure(input) if there are fewer values than parameters, or no stress.
-// best.converged tells whether an optimum was found.
+// best.converged: whether an optimum was found.
 FitResult fit(const FitProblem& problem, const FitOptions& options = {});
 
 }  // namespace langer

@@ -105,7 +105,9 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
   if (std::isfinite(error) && error > 0) {
     step = 0.5 * error;
   } else {
-    step = 0.02 * (half > 0 ? half : q.upper[i] - q.lower[i]);
+    double width = q.upper[i] - q.lower[i];
+    if (half > 0) width = half;
+    step = 0.02 * width;
   }
   Point last{best[i], 0, best};
   const double root = std::sqrt(limit);
@@ -139,7 +141,11 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
         if (k % 3 == 2 || !std::isfinite(out.rise)) t = 0.5;
         const Point middle = profile_point(q, i, in.x + std::clamp(t, 0.05, 0.95) * (out.x - in.x),
                                            in.p, chi_min, noise);
-        (middle.rise < limit ? in : out) = middle;
+        if (middle.rise < limit) {
+          in = middle;
+        } else {
+          out = middle;
+        }
         if (std::abs(middle.rise - limit) < 1e-4 * limit) {
           in = middle;
           break;
@@ -162,6 +168,7 @@ void walk(Profile& profile, const LeastSquares& q, Eigen::Index i, const VecX& b
 
 }  // namespace
 
+// The rise of chi-square if one parameter is held at a value and the others are fitted.
 double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double value,
                     const VecX& best, double noise) {
   VecX r;
@@ -169,6 +176,7 @@ double profile_rise(const LeastSquares& problem, Eigen::Index parameter, double 
   return profile_point(problem, parameter, value, best, r.squaredNorm(), noise).rise;
 }
 
+// Sizes of the parameters; for a parameter at zero its period or the width of its box.
 VecX sizes_of(const LeastSquares& problem, const VecX& p) {
   VecX size = p.cwiseAbs();
   for (Eigen::Index i = 0; i < p.size(); ++i)
@@ -182,6 +190,7 @@ VecX sizes_of(const LeastSquares& problem, const VecX& p) {
   return size;
 }
 
+// Covariance, correlations and the singular value decomposition of J diag(size)/noise.
 Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
                                 const std::vector<bool>& left_out, const ResidualNoise& noise) {
   Identifiability s;
@@ -205,7 +214,7 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
   s.singular.head(of.values.size()) = of.values;
   MatX V = MatX::Zero(k, k);
   V.leftCols(of.V.cols()) = of.V;
-  // of a combination both signs mean the same: the largest part is positive
+  // A combination and its negative are the same: the largest part is made positive.
   for (Eigen::Index c = 0; c < k; ++c) {
     Eigen::Index at = 0;
     V.col(c).cwiseAbs().maxCoeff(&at);
@@ -229,6 +238,7 @@ Identifiability identifiability(const MatX& J, const VecX& p, const VecX& size,
   return s;
 }
 
+// Names the combination of parameters that the data determine least.
 std::string sloppy_words(const Identifiability& s, const std::vector<std::string>& names,
                          Eigen::Index which) {
   const VecX v = s.combination.col(which);
@@ -242,11 +252,15 @@ std::string sloppy_words(const Identifiability& s, const std::vector<std::string
     if (std::abs(v[i]) > 0.05 * largest)
       parts.push_back(
           fmt::format("{} {:+.3g} %", names[static_cast<std::size_t>(i)], 100 * scale * v[i]));
-  return fmt::format("{} {} move the data by {:.2g} standard deviation{} of the noise in all",
-                     fmt::join(parts, ", "), parts.size() > 1 ? "together" : "alone",
-                     sigma > 1e-6 ? 1. : sigma, sigma > 1e-6 ? "" : "s");
+  std::string how = "alone";
+  if (parts.size() > 1) how = "together";
+  std::string size = "1 standard deviation";
+  if (!(sigma > 1e-6)) size = fmt::format("{:.2g} standard deviations", sigma);
+  return fmt::format("{} {} move the data by {} of the noise in all", fmt::join(parts, ", "), how,
+                     size);
 }
 
+// The profile of one parameter, to both sides.
 Profile profile(const LeastSquares& problem, Eigen::Index parameter, const VecX& best, double error,
                 double noise, double limit) {
   VecX r;
@@ -257,6 +271,7 @@ Profile profile(const LeastSquares& problem, Eigen::Index parameter, const VecX&
   return both;
 }
 
+// Profiles of all parameters; each side is one job of the threads.
 std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const VecX& error,
                               double noise, const ProfileOptions& options) {
   const auto n = static_cast<int>(best.size());
@@ -271,10 +286,11 @@ std::vector<Profile> profiles(const ProblemMaker& maker, const VecX& best, const
   in_order(
       threads, jobs,
       [&](int worker, int job) {
+        double factor = 1;
+        if (options.factor.size() > 0) factor = options.factor[job / 2];
+        const int side = 2 * (job % 2) - 1;  // even jobs go down, odd jobs up
         walk(sides[static_cast<std::size_t>(job)], problem[static_cast<std::size_t>(worker)],
-             job / 2, best, error[job / 2], chi_min,
-             noise * (options.factor.size() ? options.factor[job / 2] : 1), options.limit,
-             job % 2 ? 1 : -1);
+             job / 2, best, error[job / 2], chi_min, noise * factor, options.limit, side);
       },
       [&](int, int job) {
         if (options.progress) options.progress((job + 1.) / jobs);
@@ -358,6 +374,8 @@ class Residuals {
 
 }  // namespace
 
+// The factor by which the uncertainty of the noise itself widens each interval: Student's t at the
+// degrees of freedom, against the normal distribution.
 VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out,
                          const ResidualNoise& noise) {
   ResidualNoise known = noise;
@@ -366,6 +384,8 @@ VecX growth_of_intervals(const MatX& columns, const std::vector<bool>& left_out,
       .cwiseQuotient(interval_factors(columns, left_out, known));
 }
 
+// Residual bootstrap: fits to model values with resampled residuals. Quantiles are spread about the
+// estimate by the factor of the interval.
 Bootstrap bootstrap(const ProblemMaker& maker, const VecX& best, const ResidualNoise& noise,
                     const BootstrapOptions& options) {
   Bootstrap result;

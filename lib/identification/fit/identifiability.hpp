@@ -1,5 +1,5 @@
-// What data tell about parameters: errors, correlations, combinations that they hardly feel,
-// profiles, and which further test would help most. Works on any residual in a box
+// How well data identify parameters: errors, correlations, combinations that hardly change the
+// data, profiles, and which further test would help most. Works on any residual in a box
 // (least_squares.hpp), of one test or of many.
 //   residuals are divided by the noise, their standard deviation, so that a sum of squares is a chi-square. Where they are
 //   correlated (residual_noise.hpp) errors are those of the sandwich, a profile's rise is divided by the square of the factor by

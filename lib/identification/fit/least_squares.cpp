@@ -12,11 +12,13 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// whether a change of the parameter by its size is not felt in first order
+// Whether a change of the parameter by its typical size has no effect of first order.
 bool without_first_effect(const LeastSquares& q, const MatX& J, Eigen::Index i) {
   return J.col(i).norm() * q.typical[i] < 1e-6 * q.size;
 }
 
+// The violation of the Kuhn-Tucker conditions as the header defines it: the largest relative step
+// of the projected gradient.
 double kkt_residual(const LeastSquares& q, const VecX& p, const VecX& r, const MatX& J) {
   const VecX g = J.transpose() * r;
   double worst = 0;
@@ -90,8 +92,8 @@ VecX escape_point(const LeastSquares& q, const VecX& p, const VecX& r, const Mat
     if (!without_first_effect(q, J, i)) continue;
     const auto gain_at = [&](double x) {
       moved[i] = std::min(std::max(x, q.lower[i]), q.upper[i]);
-      return q.residual(moved, other) && other.allFinite() ? 0.5 * (r - other).dot(r + other)
-                                                           : -q.size * q.size;
+      if (!q.residual(moved, other) || !other.allFinite()) return -q.size * q.size;
+      return 0.5 * (r - other).dot(r + other);
     };
     for (double part : {1e-3, -1e-3, 1e-2, -1e-2, 1e-1, -1e-1})
       if (const double gained = gain_at(p[i] + part * q.typical[i]); gained > most) {
@@ -115,6 +117,8 @@ VecX escape_point(const LeastSquares& q, const VecX& p, const VecX& r, const Mat
 
 }  // namespace
 
+// The Jacobian by five-point differences inside the box, or exactly from one difference for linear
+// parameters.
 bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
   if (q.slope) return q.slope(p, J) && J.allFinite();
   VecX p_moved = p;
@@ -144,7 +148,11 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
       }
       if (base.size() == 0 && !at(i, p[i], base)) return false;
       if (h != 0 && !at(i, p[i] + h, value)) return false;
-      column(i, h != 0 ? VecX((value - base) / h) : VecX::Zero(base.size()));
+      if (h != 0) {
+        column(i, (value - base) / h);
+      } else {
+        column(i, VecX::Zero(base.size()));
+      }
       continue;
     }
     // h^4 against eps/h
@@ -166,7 +174,8 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
                                              {1, -8, 0, 8, -1},
                                              {-1, 6, -18, 10, 3},
                                              {3, -16, 36, -48, 25}};
-    // of changes against the first point, so that a parameter without effect gives exactly zero
+    // The stencil acts on changes against the first point, so that a parameter without effect gives
+    // exactly zero
     VecX first_value, slope;
     for (int k = 0; k < 5; ++k) {
       const double w = weights[-first][k];
@@ -175,8 +184,9 @@ bool jacobian(const LeastSquares& q, const VecX& p, MatX& J) {
       if (first_value.size() == 0) {
         first_value = value;
         slope = VecX::Zero(value.size());
-      } else
+      } else {
         slope += w * (value - first_value);
+      }
     }
     column(i, slope / (12 * h));
   }
@@ -285,7 +295,7 @@ class LevenbergMarquardt {
             1e-30, mu_ * std::max(0.1, 1 - std::pow(2 * std::min(gained / predicted, 1.) - 1, 3)));
         growth_ = 2;
         if (gained < stalled_gain_ * s_.cost) {
-          stalled_ = stalled_ + 1;
+          ++stalled_;
         } else {
           stalled_ = 0;
         }
@@ -342,6 +352,7 @@ LeastSquaresResult least_squares(const LeastSquares& q, const LeastSquaresOption
   return LevenbergMarquardt(q).search(options);
 }
 
+// The covariance for white noise with the deviation that the residuals show.
 MatX covariance(const LeastSquaresResult& s) {
   Eigen::Index n_free = 0;
   for (Eigen::Index i = 0; i < s.p.size(); ++i)

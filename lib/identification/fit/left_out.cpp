@@ -36,6 +36,7 @@ double square_error(const FitProblem& problem, const FitResult& all, std::size_t
 
 }  // namespace
 
+// The root mean square error of each test predicted from a fit to the others, in percent.
 double left_out_error(const FitProblem& problem, const FitResult& fit) {
   const std::size_t n = problem.tests.size();
   if (n < 2 || problem.further) return nan;

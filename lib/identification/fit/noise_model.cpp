@@ -9,6 +9,7 @@
 
 namespace langer {
 
+// Scales and correlation that make residuals alike and independent under a noise model.
 Standardizer::Standardizer(VecX measured, std::vector<Eigen::Index> curves, std::vector<bool> rest,
                            NoiseModel noise)
     : measured_(std::move(measured)),
@@ -22,6 +23,8 @@ Standardizer::Standardizer(VecX measured, std::vector<Eigen::Index> curves, std:
   counted_ = std::count(rest_.begin(), rest_.end(), false);
 }
 
+// The relative deviation of each value, sqrt(1 - share + share f^2) with f the stress of the model
+// over the reference, and its derivative. Their geometric mean scales the likelihood.
 Standardizer::Scales Standardizer::scales(const VecX& e) const {
   const Eigen::Index n = e.size();
   Scales all;
@@ -91,6 +94,7 @@ double Standardizer::size(const VecX& e) const {
   return uncorrelated(all.mean * measured_.cwiseQuotient(all.s)).norm();
 }
 
+// The least squares problem of the standardized residuals.
 LeastSquares standardized(const LeastSquares& problem, const Standardizer& standardizer) {
   LeastSquares q = problem;
   q.residual = [problem, standardizer](const VecX& p, VecX& u) {
@@ -128,6 +132,8 @@ double with_best_correlation(const VecX& e, const VecX& measured,
 
 }  // namespace
 
+// Maximises the likelihood over the share of proportional noise on a grid of its logarithm; the
+// best correlation at each share follows by itself.
 NoiseModel most_likely_noise(const VecX& e, const VecX& measured,
                              const std::vector<Eigen::Index>& curves, const std::vector<bool>& rest,
                              NoiseKind kind) {

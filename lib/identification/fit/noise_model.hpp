@@ -35,7 +35,7 @@ struct NoiseModel {
   bool is_white() const { return kind == NoiseKind::white; }
   bool correlated() const { return kind == NoiseKind::autoregressive || kind == NoiseKind::both; }
   bool grows() const { return kind == NoiseKind::proportional || kind == NoiseKind::both; }
-  int parameters() const { return (correlated() ? 1 : 0) + (grows() ? 1 : 0); }
+  int parameters() const { return static_cast<int>(correlated()) + static_cast<int>(grows()); }
 };
 
 // The largest share: at rest the deviation is a hundredth of that at stress m.

@@ -17,6 +17,8 @@ double into_box(double x, double period, double lower, double upper) {
   return x;
 }
 
+// An angle of symmetry: over a step of the size of its interval, the even part of the change of the
+// residuals is larger than the odd part. Its column is then the second derivative.
 SymmetricAngles symmetric_angles(const LeastSquares& q, const LeastSquaresResult& best,
                                  double deviation, const std::vector<double>& turn) {
   SymmetricAngles s{std::vector<bool>(static_cast<std::size_t>(best.p.size()), false), best.J};
@@ -38,7 +40,8 @@ SymmetricAngles symmetric_angles(const LeastSquares& q, const LeastSquaresResult
     if (!up || !down) continue;
     const VecX even = above + below - 2 * best.r;
     if (!((above - below).norm() < even.norm())) continue;
-    s.at[static_cast<std::size_t>(i)] = true, s.columns.col(i) = even / (h * h);
+    s.at[static_cast<std::size_t>(i)] = true;
+    s.columns.col(i) = even / (h * h);
   }
   return s;
 }

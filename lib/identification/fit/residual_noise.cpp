@@ -13,7 +13,7 @@ namespace {
 
 using Curves = std::vector<Eigen::Index>;
 
-// the transpose of innovations()
+// The transpose of the linear map innovations().
 MatX transposed_innovations(const MatX& A, const Curves& curves, double rho) {
   MatX B = A;
   Eigen::Index at = 0;
@@ -25,7 +25,8 @@ MatX transposed_innovations(const MatX& A, const Curves& curves, double rho) {
   return B;
 }
 
-// direction^T R direction
+// v^T R v for the correlation matrix R_ij = rho^|i-j| within a curve, in one pass: the sum over j <
+// i is kept in `before`.
 double correlated_square(const VecX& v, const Curves& curves, double rho) {
   double sum = 0;
   Eigen::Index at = 0;
@@ -40,7 +41,7 @@ double correlated_square(const VecX& v, const Curves& curves, double rho) {
   return sum;
 }
 
-// R A
+// R A without forming R: one recursion forwards and one backwards along each curve.
 MatX correlated(const MatX& A, const Curves& curves, double rho) {
   MatX forward = A;
   MatX backward = A;
@@ -54,14 +55,15 @@ MatX correlated(const MatX& A, const Curves& curves, double rho) {
   return forward + backward - A;
 }
 
-// direction^T V direction at a deviation of 1 and a correlation
+// v^T V v for a deviation of 1. Residuals that are innovations already (removed > 0) are taken back
+// to the values first.
 double correlated_square(const VecX& v, const ResidualNoise& noise, double rho) {
   if (noise.removed == 0) return correlated_square(v, noise.curves, rho);
   const VecX back = transposed_innovations(v, noise.curves, noise.removed);
   return correlated_square(back, noise.curves, rho) / (1 - rho * rho);
 }
 
-// V A at a deviation of 1
+// V A for a deviation of 1, see above.
 MatX correlated(const MatX& A, const ResidualNoise& noise) {
   if (noise.removed == 0) return correlated(A, noise.curves, noise.rho);
   const MatX back = transposed_innovations(A, noise.curves, noise.removed);
@@ -69,7 +71,8 @@ MatX correlated(const MatX& A, const ResidualNoise& noise) {
          (1 - noise.rho * noise.rho);
 }
 
-// an orthonormal basis of the columns' space
+// An orthonormal basis of the column space of J. Columns are scaled first, so that the rank does
+// not depend on units.
 MatX column_space(const MatX& J) {
   if (J.cols() == 0) return J;
   MatX scaled = J;
@@ -81,11 +84,14 @@ MatX column_space(const MatX& J) {
   return of.U.leftCols(rank);
 }
 
+// The restricted likelihood (REML) at one correlation, and the deviation that maximises it there.
 struct Restricted {
   double rho, log_likelihood, deviation;
 };
 
-// U (m, k) orthonormal columns of the space that the parameters span
+// log L = -1/2 ((m - k) log s^2 + log det(W^T W) - log det R), with W the innovations of U and s^2
+// the variance of what the parameters cannot explain. U (m, k): orthonormal basis of the columns of
+// J.
 Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double rho) {
   const auto free = static_cast<double>(r.size() - U.cols());
   const MatX W = innovations(U, curves, rho);
@@ -104,7 +110,8 @@ Restricted restricted(const VecX& r, const MatX& U, const Curves& curves, double
           std::sqrt(variance / (1 - rho * rho))};
 }
 
-// the largest value of f on [0, high]: a grid that gets finer towards high, then golden sections
+// The place of the largest value of f on [0, high]: a grid that is finer towards high, where
+// correlations of smooth residuals are, then a golden section search.
 template <class F>
 double highest(F f, double high) {
   constexpr int steps = 40;
@@ -124,13 +131,19 @@ double highest(F f, double high) {
   for (int k = 0; k < 40 && b - a > 1e-9; ++k) {
     const double c = b - golden * (b - a);
     const double d = a + golden * (b - a);
-    (f(c) >= f(d) ? b : a) = f(c) >= f(d) ? d : c;
+    if (f(c) >= f(d)) {
+      b = d;
+    } else {
+      a = c;
+    }
   }
   const double inside = 0.5 * (a + b);
   if (f(inside) > value) return inside;
   return at(best);
 }
 
+// The number of independent values with the same information about a mean: n / (1 + 2 sum (1 - k/n)
+// rho^k) for each curve.
 double effective_values(const Curves& curves, double rho) {
   double sum = 0;
   for (Eigen::Index n : curves) {
@@ -144,13 +157,15 @@ double effective_values(const Curves& curves, double rho) {
   return sum;
 }
 
-// the part of a column that the columns of U cannot replace
+// The part of a column that is orthogonal to the columns of U. Two passes keep it orthogonal in
+// spite of rounding.
 VecX beyond(const MatX& U, const VecX& column) {
   VecX v = column;
   for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) v -= U * (U.transpose() * v);
   return v;
 }
 
+// The columns of J that are not left out, without column `but`.
 MatX chosen_columns(const MatX& J, const std::vector<bool>& left_out, Eigen::Index but = -1) {
   std::vector<Eigen::Index> in;
   for (Eigen::Index i = 0; i < J.cols(); ++i)
@@ -158,8 +173,9 @@ MatX chosen_columns(const MatX& J, const std::vector<bool>& left_out, Eigen::Ind
   return J(Eigen::all, in);
 }
 
-// What the restricted likelihood says of a correlation and its neighbours. U (m, k): orthonormal
-// columns of the space that the parameters span.
+// Sets the correlation, its deviation and the variance of the estimated correlation, which is the
+// inverse curvature of the restricted likelihood. Neighbouring correlations serve as differences in
+// along(). U (m, k): orthonormal basis of the columns of J.
 void set_correlation(const VecX& r, const MatX& U, double rho, ResidualNoise& noise) {
   const Restricted best = restricted(r, U, noise.curves, rho);
   noise.rho = rho;
@@ -280,7 +296,7 @@ ResidualNoise innovation_noise(const VecX& z, const MatX& J,
     return restricted(z, U, curves, rho).log_likelihood;
   };
   set_correlation(z, U, highest(likelihood, largest_correlation(curves)), noise);
-  // of the innovations, in units of u
+  // the deviation of the innovations, in units of u
   const auto of_innovations = [&](double rho, double deviation) {
     return scale * deviation * std::sqrt(1 - rho * rho);
   };
@@ -355,6 +371,8 @@ VecX interval_factors(const MatX& columns, const std::vector<bool>& left_out,
   const double total = noise.total();
   if (!(total > 0)) return factors;
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    // The direction in the residuals that only this parameter can explain decides which noise it
+    // feels.
     const VecX own = beyond(column_space(chosen_columns(columns, left_out, i)), columns.col(i));
     const double size = own.norm();
     if (!(size > 1e-12 * columns.col(i).norm())) continue;

@@ -21,6 +21,7 @@ double effect(const FitProblem& problem, const VecX& p, Eigen::Index i) {
   return shear_modulus(with_parameters(problem, more)) - shear_modulus(with_parameters(problem, p));
 }
 
+// Whether a free parameter is a modulus of the matrix with a preset bound, which may be raised.
 bool is_modulus_of_the_matrix(const FitProblem& problem, std::size_t i) {
   const FreeParameter& free = problem.free[i];
   if (!free.preset || !free.key.starts_with("matrix")) return false;
@@ -71,13 +72,18 @@ double allowed_by(const FitProblem& problem, const FitResult& fit, Eigen::Index 
   if (!inside(out)) return inf;
   for (int k = 0; k < 12; ++k) {
     const double middle = 0.5 * (in + out);
-    (profile_rise(q, i, value(middle), p, noise) < limit ? in : out) = middle;
+    if (profile_rise(q, i, value(middle), p, noise) < limit) {
+      in = middle;
+    } else {
+      out = middle;
+    }
   }
   return mu + in;
 }
 
 }  // namespace
 
+// The warning about a shear modulus that was raised, with what it costs.
 std::string in_words(const StiffnessAtRest& s) {
   std::string reach = "allow any";
   if (std::isfinite(s.allowed)) {
@@ -104,10 +110,13 @@ double residual_noise(const FitProblem& problem, const FitResult& fit, double pa
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
   const auto m = fit.best.r.size();
   const auto n = fit.best.p.size();
-  return std::max(part * largest,
-                  m > n ? fit.residual.norm() / std::sqrt(static_cast<double>(m - n)) : 0);
+  double shown = 0;
+  if (m > n) shown = fit.residual.norm() / std::sqrt(static_cast<double>(m - n));
+  return std::max(part * largest, shown);
 }
 
+// The shear modulus whose stresses in all tests have the size of the noise: a smaller one cannot be
+// distinguished from zero.
 double least_shear_modulus(const FitProblem& problem, double noise) {
   const Material unit_matrix{{NeoHooke{0.5}}, {}, problem.law.volume};
   double sum = 0;
@@ -120,6 +129,7 @@ double least_shear_modulus(const FitProblem& problem, double noise) {
   return inf;
 }
 
+// Repeats the fit with a raised lower bound of each modulus of the matrix and keeps the best one.
 std::optional<StiffnessAtRest> stiffen_at_rest(FitProblem& problem, FitResult& fit,
                                                const FitOptions& options, double part) {
   StiffnessAtRest s;

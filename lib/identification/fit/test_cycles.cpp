@@ -34,6 +34,7 @@ std::vector<BranchRange> branches(const Test& test) {
   return all;
 }
 
+// The point of the largest absolute stress along x.
 std::size_t point_of_peak(const Test& test) {
   const auto smaller = [](double a, double b) {
     return std::abs(a) < std::abs(b);
@@ -44,6 +45,7 @@ std::size_t point_of_peak(const Test& test) {
 
 }  // namespace
 
+// Points where the deformation reverses by more than the noise.
 std::vector<std::size_t> turning_points(const std::vector<double>& deformation) {
   if (deformation.size() < 2) {
     return {};
@@ -78,6 +80,8 @@ std::vector<std::size_t> turning_points(const std::vector<double>& deformation) 
   return turns;
 }
 
+// Keeps the cycles and branches that the config chooses. Earlier cycles become history if the test
+// has times.
 void keep_cycles(Test& test, const TestCycles& choice, const std::string& file) {
   if (test.points() == 0) {
     return;

@@ -282,7 +282,7 @@ struct Reading {
     }
   }
 
-  // nobody told: the first value does, or is asked about
+  // No name gives the measure: the first value decides, or the file is refused.
   StrainMeasure measure_by_values(const AxisColumns& axis, std::size_t column,
                                   const ColumnMeaning& m) {
     const auto row = std::find_if(table.rows.begin(), table.rows.end(), [&](const CsvRow& r) {
@@ -483,6 +483,7 @@ std::string block_name(const CsvTable& table, std::size_t block) {
   return name;
 }
 
+// Rows of each test: `split` makes one test for each text of its column.
 std::vector<RowGroup> groups_of_rows(const Reading& in, const std::optional<std::size_t>& split) {
   std::vector<RowGroup> groups;
   for (const CsvRow& row : in.table.rows) {
@@ -583,6 +584,7 @@ bool runs_along_second(const TestFormat& format, bool own_grids, bool across, co
   return own_grids && !test.second.empty() && (across || !format.ratio);
 }
 
+// Refuses a file that is named a compression test but has tension only, unless a sign is given.
 void check_compression(const Test& test, const Reading& in) {
   const bool sign_is_given = in.format.strain_sign || in.format.stress_sign;
   const bool says_so = in.says_compression ||
@@ -649,6 +651,8 @@ void finish(Test& test, const Reading& in, bool along_second) {
 
 }  // namespace
 
+// From a table to tests: find the columns and their measures, convert the rows, shift to rest, keep
+// the chosen part, check signs.
 std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   Reading in(table, format);
   if (table.header.cells.empty())
@@ -713,6 +717,7 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
   return tests;
 }
 
+// Reads the tests of a table in a text.
 std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name,
                               const TestFormat& format) {
   // A name, or the place of one: "column 3" is a text that is no number.
@@ -759,6 +764,7 @@ double engineering_strain(double stretch) {
   return stretch - 1;
 }
 
+// The largest absolute stress of both axes.
 double largest_stress(const Test& test) {
   double s = 0;
   for (const auto* list : {&test.stress_x, &test.stress_z})

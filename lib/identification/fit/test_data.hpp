@@ -46,9 +46,27 @@ struct Test {
 
   std::size_t points() const { return first.size(); }
   std::size_t values() const { return stress_x.size() + stress_z.size(); }
+  // The stretch along z that a test imposes at a point; 1 where it imposes none.
+  double second_at(std::size_t point) const {
+    if (second.empty()) return 1;
+    return second[point];
+  }
 };
 
-// what of a test is kept; strains are lambda_x - 1 (simple shear: g), after the shift by `toe`
+// The engineering strain along x of a value of Test::first; in simple shear the amount of shear.
+inline double strain_of(TestKind kind, double first) {
+  if (kind == TestKind::simple_shear) return first;
+  return first - 1;
+}
+
+// The inverse: the value of Test::first at a strain.
+inline double deformation_at(TestKind kind, double strain) {
+  if (kind == TestKind::simple_shear) return strain;
+  return 1 + strain;
+}
+
+// The part of a test that is kept. Strains are lambda_x - 1 (simple shear: g), after the shift by
+// `toe`
 struct KeptPart {
   double strain_from = -1e300, strain_to = 1e300;
   double time_from = -1e300, time_to = 1e300;  // [s]
@@ -83,7 +101,7 @@ struct TestFormat {
               // tells
   std::optional<StrainMeasure> strain;
   std::optional<StressMeasure> stress;
-  std::optional<StressUnit> stress_unit;  // where the column's name does not tell
+  std::optional<StressUnit> stress_unit;  // if the name of the column does not give it
   std::optional<StrainUnit> strain_unit;
   std::optional<TimeUnit> time_unit;
   std::optional<DecimalSign> decimal;
@@ -95,7 +113,7 @@ struct TestFormat {
   std::map<std::string, std::string> where;  // only rows with these texts in these columns
   std::string split;                         // a column: one test per text in it
   std::string block;                         // the label of one of several blocks of rows
-  // of a biaxial test whose axes have grids of their own: (lambda_z - 1) / (lambda_x - 1)
+  // For a biaxial test whose axes have separate grids: (lambda_z - 1) / (lambda_x - 1)
   std::optional<double> ratio;
   KeptPart part;  // of its points
   TestCycles cycles;

@@ -15,25 +15,23 @@ namespace langer {
 
 namespace {
 
+// All lists of a test that have a value for each point. Some may be empty.
 std::array<std::vector<double>*, 5> lists(Test& test) {
   return {&test.first, &test.second, &test.stress_x, &test.stress_z, &test.time};
 }
 
-// The body at the stretch l0 is the new one at rest: P l is the force over its area, S l^2 too.
+// Takes the body at the stretch l0 as the undeformed one. Areas at rest become smaller by 1/l0, so
+// that nominal stresses grow by l0, and second Piola-Kirchhoff stresses by l0^2.
 void refer_to(double l0, StressMeasure measure, std::vector<double>& stretches,
               std::vector<double>& stresses) {
-  double area = 0;
-  if (measure == StressMeasure::nominal) {
-    area = l0;
-  } else if (measure == StressMeasure::second_piola) {
-    area = l0 * l0;
-  } else {
-    area = 1;
-  }
+  double area = 1;
+  if (measure == StressMeasure::nominal) area = l0;
+  if (measure == StressMeasure::second_piola) area = l0 * l0;
   for (double& l : stretches) l /= l0;
   for (double& s : stresses) s *= area;
 }
 
+// The value of Test::first in the undeformed state.
 double at_rest(const Test& test) {
   if (test.kind == TestKind::simple_shear) return 0;
   return 1;
@@ -65,21 +63,19 @@ void shift_to_toe(Test& test, double toe, const std::string& file) {
     throw error(fmt::format("found {:g} MPa, and no stress of {} as large", toe,
                             text_or(test.name, "the test")),
                 "less");
+  // Interpolates a stretch linearly to the stress `toe`.
   const auto at_toe = [&](const std::vector<double>& l) {
     if (k == 0) return l[0];
     const double s = (toe - test.stress_x[k - 1]) / (test.stress_x[k] - test.stress_x[k - 1]);
     return l[k - 1] + s * (l[k] - l[k - 1]);
   };
   const double x0 = at_toe(test.first);
-  double z0 = 0;
-  if (test.second.empty()) {
-    z0 = x0;
-  } else {
-    z0 = at_toe(test.second);
-  }
+  double z0 = x0;
+  if (!test.second.empty()) z0 = at_toe(test.second);
   refer_to(x0, test.measure, test.first, test.stress_x);
-  // pure shear holds z, an equibiaxial test pulls it alike
-  refer_to(test.kind == TestKind::pure_shear ? 1 : z0, test.measure, test.second, test.stress_z);
+  // Pure shear holds z. An equibiaxial test stretches z like x.
+  if (test.kind == TestKind::pure_shear) z0 = 1;
+  refer_to(z0, test.measure, test.second, test.stress_z);
   for (auto* list : lists(test))
     if (!list->empty()) list->erase(list->begin(), list->begin() + static_cast<std::ptrdiff_t>(k));
 }
@@ -97,18 +93,15 @@ void shift_to_start(Test& test) {
     if (!stresses->empty())
       for (const double at_rest = mean(*stresses); double& s : *stresses) s -= at_rest;
   const double x0 = mean(test.first);
-  double z0 = 0;
-  if (test.second.empty()) {
-    z0 = x0;
-  } else {
-    z0 = mean(test.second);
-  }
+  double z0 = x0;
+  if (!test.second.empty()) z0 = mean(test.second);
   if (test.kind == TestKind::simple_shear) {
     for (double& g : test.first) g -= x0;
     return;
   }
   refer_to(x0, test.measure, test.first, test.stress_x);
-  refer_to(test.kind == TestKind::pure_shear ? 1 : z0, test.measure, test.second, test.stress_z);
+  if (test.kind == TestKind::pure_shear) z0 = 1;
+  refer_to(z0, test.measure, test.second, test.stress_z);
 }
 
 void keep_range(Test& test, const std::vector<double>& along, double from, double to) {
@@ -148,6 +141,7 @@ void make_history(Test& test, std::size_t n) {
 
 void add_step(Test& test, const StepStart& step, const std::string& file) {
   const bool has_history = !test.before.time.empty();
+  // The first reading is in the history if there is one.
   const std::vector<double>& times = has_history ? test.before.time : test.time;
   const std::vector<double>& first = has_history ? test.before.first : test.first;
   const std::vector<double>& second = has_history ? test.before.second : test.second;
@@ -169,7 +163,9 @@ void add_step(Test& test, const StepStart& step, const std::string& file) {
   }
 
   // A ramp is followed in 20 increments; a step of no duration is one.
-  const int increments = ramp > 0 ? 20 : 1;
+  int increments = 1;
+  if (ramp > 0) increments = 20;
+  // The ramp goes linearly from rest to the state of the first reading.
   Past past;
   for (int i = 0; i <= increments; ++i) {
     const double part = static_cast<double>(i) / increments;
@@ -191,25 +187,17 @@ bool starts_loaded(const Test& test) {
   if (test.time.empty()) {
     return false;
   }
-  double first_time = 0;
+  double first_time = test.time.front();
+  double first = test.first.front();
   if (has_history) {
     first_time = test.before.time.front();
-  } else {
-    first_time = test.time.front();
-  }
-  double first = 0;
-  if (has_history) {
     first = test.before.first.front();
-  } else {
-    first = test.first.front();
   }
   double reach = 0;
   for (const double x : test.first) reach = std::max(reach, std::abs(x - at_rest(test)));
   const double part = std::abs(first - at_rest(test)) / std::max(reach, 1e-300);
-  double stress = 0;
-  if (has_history) {
-    stress = 1;
-  } else {
+  double stress = 1;  // the stresses of a history are not known
+  if (!has_history) {
     stress = std::abs(test.stress_x.front()) / std::max(largest_stress(test), 1e-300);
   }
   constexpr double loaded = 0.05;

@@ -13,16 +13,11 @@ namespace langer {
 
 namespace {
 
-double strain_of(const Test& test, double deformation) {
-  if (test.kind == TestKind::simple_shear) return deformation;
-  return deformation - 1;
-}
-
 // Stress times strain of every point, summed over the axes that work.
 std::vector<double> works(const Test& test) {
   std::vector<double> all;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    double work = test.stress_x[i] * strain_of(test, test.first[i]);
+    double work = test.stress_x[i] * strain_of(test.kind, test.first[i]);
     if (test.kind == TestKind::biaxial && !test.stress_z.empty()) {
       work += test.stress_z[i] * (test.second[i] - 1);
     }
@@ -57,6 +52,7 @@ void check_signs(const Test& test, const std::string& file) {
   if (2 * negative <= counted) {
     return;
   }
+  // More points with negative than with positive work: report the one with the most negative work.
   const bool shear = test.kind == TestKind::simple_shear;
   std::string deformation;
   if (shear) {
@@ -77,6 +73,7 @@ void check_signs(const Test& test, const std::string& file) {
 
 bool names_compression(const std::string& name) {
   std::string word;
+  // The name is split into words of letters, in lower case.
   const auto is_compression = [](const std::string& text) {
     return text == "comp" || text == "compr" || text.starts_with("compress") || text == "druck" ||
            text == "druckversuch" || text == "stauchversuch";
@@ -99,7 +96,7 @@ bool only_tension(const Test& test) {
   };
   const double largest = largest_stress(test);
   double reach = 0;
-  for (const double x : test.first) reach = std::max(reach, std::abs(strain_of(test, x)));
+  for (const double x : test.first) reach = std::max(reach, std::abs(strain_of(test.kind, x)));
   double rest = 1;
   if (test.kind == TestKind::simple_shear) rest = 0;
   return !below(test.first, rest - 0.05 * reach) && !below(test.stress_x, -0.05 * largest);

@@ -12,7 +12,8 @@ namespace langer {
 
 namespace {
 
-// what judges a result, and is not asked for here
+// A run of a fit needs the path alone: error estimates, stability checks and reductions are
+// switched off.
 SolveConfig without_judgement(SolveConfig config) {
   config.accuracy.reset();
   config.fidelity.reset();
@@ -25,7 +26,8 @@ SolveConfig without_judgement(SolveConfig config) {
   return config;
 }
 
-// Increments end where a history has a point: points more on the same straight lines.
+// Adds points on the straight lines between those of a history, so that increments end at the
+// stops.
 template <class Point, class To>
 std::vector<Point> with_stops(const std::vector<Point>& points, const std::vector<double>& stops,
                               To between) {
@@ -42,7 +44,8 @@ std::vector<Point> with_stops(const std::vector<Point>& points, const std::vecto
   return all;
 }
 
-// where no seconds are told; what moves first decides
+// Adds stops to the first history that moves, of contacts before loads. Paths in seconds have their
+// own increments.
 void add_stops(SolveConfig& config, const std::vector<double>& stops) {
   const auto point_between = [](const std::array<double, 3>& a, const std::array<double, 3>& b,
                                 double part) {
@@ -73,6 +76,7 @@ void add_stops(SolveConfig& config, const std::vector<double>& stops) {
   }
 }
 
+// Whether a key names the friction of a contact that this scene does not have.
 bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
   return key.starts_with("contacts.") &&
          std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
@@ -80,6 +84,7 @@ bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
          });
 }
 
+// A matrix from rows that were collected during a run.
 MatX matrix_of(const std::vector<std::vector<double>>& rows, std::size_t columns) {
   MatX m(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -112,6 +117,7 @@ SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
 }
 
 ForwardPath ForwardRun::solve(const ForwardInput& input) const {
+  // Ask for the sensitivity by each number that this scene has. The others stay zero.
   SolveConfig config = config_at(input);
   std::vector<std::size_t> asked;  // those that this scene has
   for (std::size_t k = 0; k < input.slopes.size(); ++k)
@@ -125,6 +131,7 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   std::vector<std::vector<double>> rows;
   std::vector<std::vector<std::vector<double>>> slopes(input.slopes.size());
   ForwardPath found;
+  // Record observations and their derivatives at each accepted increment.
   RunListener listener;
   listener.of_whole = [&](StepRecord& whole, const SolveReport&) {
     found.t.push_back(whole.t);
@@ -137,8 +144,8 @@ ForwardPath ForwardRun::solve(const ForwardInput& input) const {
         slopes[asked[k]].back()[i] =
             observations_[i].slope(whole, sensitivity->now()[k], run.scene.contacts);
   };
-  const RunEnd end =
-      run.follow(sensitivity ? sensitivity->along(std::move(listener)) : std::move(listener));
+  if (sensitivity) listener = sensitivity->along(std::move(listener));
+  const RunEnd end = run.follow(std::move(listener));
   if (end.at == RunEnd::At::signal)
     throw Failure(exit_code_of(interrupted()),
                   Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
@@ -158,7 +165,11 @@ std::optional<SolveConfig> ForwardRun::on_longer_cells(double factor) const {
   Geometry& geometry = longer.mesh->geometry;
   const bool scaled =
       has_edge_in_contact_radii(geometry) && reference(config_.mesh->cells).second_order();
-  scaled ? scale_cells(geometry, factor) : lengthen_cells(geometry, factor);
+  if (scaled) {
+    scale_cells(geometry, factor);
+  } else {
+    lengthen_cells(geometry, factor);
+  }
   if (numbers_of_cells(geometry) == numbers_of_cells(config_.mesh->geometry)) return std::nullopt;
   if (longer.symmetry != SymmetryChoice::none) longer.symmetry = SymmetryChoice::automatic;
   return longer;

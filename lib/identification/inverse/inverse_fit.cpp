@@ -8,6 +8,7 @@
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -16,7 +17,8 @@ namespace langer {
 namespace {
 
 constexpr double draft_factor = 2;  // of the cells' length
-// fits end where their steps are as small: the runs themselves are not more exact
+// Options of a search whose steps end at the relative size `step`: the runs are not more exact than
+// that.
 FitOptions options_of(const FitConfig& config, double step) {
   FitOptions options{config.searches(), static_cast<unsigned>(config.seed), {}};
   options.least_squares.iterations = 60;
@@ -54,6 +56,7 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
   problem_.further = scenes_;
 }
 
+// Fits at one mesh size. A signal ends the search with advice; cached runs are kept.
 FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const FitOptions& options) {
   problem_.further = scenes;
   try {
@@ -70,6 +73,8 @@ FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const Fit
   }
 }
 
+// Searches on coarse elements first and starts the search on the given ones from there. Coarse
+// elements are skipped if they have no optimum or no equilibrium.
 FitResult InverseFit::search() {
   const FitProblem asked = problem_;
   bool begun = false;
@@ -96,14 +101,14 @@ FitResult InverseFit::search() {
     problem_.free[i].start = asked.free[i].start;
   if (found.best.converged) return found;
   if (std::isfinite(found.best.cost)) reached_ = found;
-  const std::string& why = scenes_->last_failure();
+  std::string why;
+  if (!scenes_->last_failure().empty()) why = "; a trial had " + scenes_->last_failure();
   throw Failure(
       Exit::not_converged,
       Error{
           where_("parameters"), "parameters",
           fmt::format("no optimum after {} runs: {}{}; KKT residual {:.2g}, chi-square {:.6g}",
-                      runs(), found.best.why, why.empty() ? "" : "; a trial had " + why,
-                      found.best.kkt, 2 * found.best.cost),
+                      runs(), found.best.why, why, found.best.kkt, 2 * found.best.cost),
           "",
           "other start values or narrower bounds; shorter increments where scenes have no equilibrium"});
 }
@@ -127,7 +132,8 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
     lines.push_back("the discretisation error of the forces is not estimated");
     return lines;
   }
-  // values of second order in the length of the cells
+  // Richardson's extrapolation for forces of second order: the error of the fine mesh is the
+  // difference to the coarse mesh over (factor^2 - 1).
   const VecX beyond = (fit.further - coarse) / (draft_factor * draft_factor - 1);
   Eigen::Index at = 0;
   for (FittedCurve& curve : record.curves) {
@@ -136,7 +142,8 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
     curve.discretisation_percent = 100 * beyond.segment(at, n).cwiseAbs().maxCoeff() / largest;
     at += n;
   }
-  // what a fit to cells without error would find: of first order
+  // The change of the parameters to first order if the measured values were compared with
+  // extrapolated ones: least squares of the error by the Jacobian.
   VecX r = VecX::Zero(fit.best.r.size());
   r.tail(beyond.size()) = scenes_->weight().cwiseProduct(beyond);
   std::vector<Eigen::Index> free;
@@ -147,8 +154,10 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   std::string words;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const FittedParameter& p = record.parameters[static_cast<std::size_t>(free[k])];
-    words += fmt::format("{}{} by {:.2g}{}", words.empty() ? "" : ", ", p.name,
-                         change[static_cast<Eigen::Index>(k)], p.unit == "-" ? "" : " " + p.unit);
+    std::string unit;
+    if (p.unit != unit::none) unit = " " + p.unit;
+    append(words, ", ",
+           fmt::format("{} by {:.2g}{}", p.name, change[static_cast<Eigen::Index>(k)], unit));
   }
   lines.push_back("without the discretisation error the parameters would change by about: " +
                   words);
@@ -156,17 +165,22 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
 }
 
 std::vector<std::string> InverseFit::cost() const {
-  const double seconds = scenes_->run_seconds() + (draft_ ? draft_->run_seconds() : 0);
-  return {
-      fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(),
-                  scenes_->scenes() > 1 ? "s" : "", seconds,
-                  draft_ ? fmt::format("; {} of them on coarse elements", draft_->runs()) : "")};
+  double seconds = scenes_->run_seconds();
+  std::string coarse;
+  if (draft_) {
+    seconds += draft_->run_seconds();
+    coarse = fmt::format("; {} of them on coarse elements", draft_->runs());
+  }
+  return {fmt::format("{} runs of {} scene{}, {:.1f} s of CPU{}", runs(), scenes_->scenes(),
+                      plural_s(scenes_->scenes()), seconds, coarse)};
 }
 
 std::string parameters_csv(const FitRecord& record) {
   std::string text = "parameter,true,found,standard_error,lower_95,upper_95\n";
   const auto cell = [](double x) {
-    return std::isfinite(x) ? fmt::format("{}", x) : std::string();
+    std::string text;
+    if (std::isfinite(x)) text = fmt::format("{}", x);
+    return text;
   };
   for (const FittedParameter& p : record.parameters) {
     const auto [low, high] = interval_95(p);
@@ -176,6 +190,7 @@ std::string parameters_csv(const FitRecord& record) {
   return text;
 }
 
+// One table for each measured curve.
 std::vector<NamedTable> curve_tables(const FitRecord& record) {
   std::vector<NamedTable> tables;
   for (const FittedCurve& curve : record.curves) {

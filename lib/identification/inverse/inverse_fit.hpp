@@ -1,5 +1,5 @@
-// A fit whose tests are scenes: searched on coarse cells first, then on those of the configs, and
-// what their cells leave open.
+// A fit whose tests are scenes (finite element runs). It searches on coarse elements first, then on
+// those of the configs, and estimates the discretisation error of the parameters from both.
 #pragma once
 
 #include <memory>
@@ -24,14 +24,17 @@ class InverseFit {
   // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code
   // where one has come.
   FitResult search();
-  // what a search without an optimum came to, where it has a model
+  // The best parameters of a search without an optimum, if there is a model at them.
   const std::optional<FitResult>& reached() const { return reached_; }
   // the measured and found curves with the errors that their cells make, and what these do to the
   // parameters, in words
   std::vector<std::string> add_curves(const FitResult& fit, FitRecord& record);
   std::vector<FittedCurve> curves(const FitResult& fit) const;  // with their errors
   std::vector<std::string> cost() const;                        // of what was solved, in words
-  int runs() const { return scenes_->runs() + (draft_ ? draft_->runs() : 0); }
+  int runs() const {
+    if (!draft_) return scenes_->runs();
+    return scenes_->runs() + draft_->runs();
+  }
   void done() { cache_->remove(); }
 
  private:

@@ -13,8 +13,9 @@ namespace langer {
 
 namespace {
 
-// Bilinear coordinates of a place in a quadrilateral, by Gauss and Newton; in_plan: seen from
-// above. Nothing where it lies outside.
+// Weights of the corners of a bilinear quadrilateral at a place, by Gauss-Newton iterations for its
+// coordinates (a, b). in_plan: seen from above, heights do not count. Nothing if the place is
+// outside.
 std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corner,
                                                 const Vec3& place, bool in_plan, double tolerance) {
   double a = 0, b = 0;
@@ -53,7 +54,7 @@ std::optional<std::array<double, 4>> weights_in(const std::array<Vec3, 4>& corne
   return shapes();
 }
 
-// of the indenter named, or of the first
+// The displacement of the named indenter, or of the first one.
 Vec3 way_of(const std::string& contact, const StepRecord& whole,
             const std::vector<RigidContact>& contacts) {
   for (const RigidContact& one : contacts)
@@ -67,7 +68,9 @@ double Observation::value(const StepRecord& whole,
                           const std::vector<RigidContact>& contacts) const {
   if (of == Of::travel) return whole.scalars.at("travel_" + contact);
   if (of != Of::force) return sum(whole);
-  const Vec3 force = contact.empty() ? whole.force_ind : force_on(whole, contact);
+  // The force against the motion of the indenter; its size if the indenter does not move.
+  Vec3 force = whole.force_ind;
+  if (!contact.empty()) force = force_on(whole, contact);
   const Vec3 way = way_of(contact, whole, contacts);
   if (way.norm() > 0) return -force.dot(way.normalized());
   return force.norm();
@@ -82,6 +85,7 @@ double Observation::slope(const StepRecord& whole, const StepRecord& derivative,
                             force_on(derivative, contact));
 }
 
+// Weighted sum of a component over the nodes of the observation.
 double Observation::sum(const StepRecord& whole) const {
   double sum = 0;
   const std::vector<Vec3>& field = of == Of::reaction ? whole.reaction : whole.u;
@@ -90,15 +94,23 @@ double Observation::sum(const StepRecord& whole) const {
   return sum;
 }
 
+// Finds the facet that contains a place of the surface, and the weights of its nodes there.
 bool find_place(const Mesh& mesh, const Vec3& place, Observation& found) {
   const bool in_plan = std::isnan(place[1]);
   const double tolerance = 1e-6 * size(mesh);
-  for (const Facet& facet : in_plan ? mesh.facet_sets.at("top") : boundary(mesh))
+  std::vector<Facet> facets;
+  Vec3 seen = place;
+  if (in_plan) {
+    facets = mesh.facet_sets.at("top");
+    seen[1] = 0;
+  } else {
+    facets = boundary(mesh);
+  }
+  for (const Facet& facet : facets)
     for (const auto& quad : facet_quads(mesh, facet)) {
       std::array<Vec3, 4> corner;
       for (std::size_t k = 0; k < 4; ++k) corner[k] = mesh.X[static_cast<std::size_t>(quad[k])];
-      const auto N =
-          weights_in(corner, in_plan ? Vec3(place[0], 0, place[2]) : place, in_plan, tolerance);
+      const auto N = weights_in(corner, seen, in_plan, tolerance);
       if (!N) continue;
       found.nodes.assign(quad.begin(), quad.end());
       found.weights.assign(N->begin(), N->end());

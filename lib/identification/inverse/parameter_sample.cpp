@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
 #include "mechanics/material/parameters.hpp"
 
@@ -13,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// The parameters whose variance the fit knows.
 std::vector<Eigen::Index> with_variance(const FitRecord& fit) {
   std::vector<Eigen::Index> known;
   for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i)
@@ -20,6 +22,8 @@ std::vector<Eigen::Index> with_variance(const FitRecord& fit) {
   return known;
 }
 
+// Draw number `number` of the normal distribution of the parameters, put into their bounds. The
+// same number always gives the same draw.
 VecX drawn(const FitRecord& fit, int number) {
   VecX p(static_cast<Eigen::Index>(fit.parameters.size()));
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
@@ -50,10 +54,15 @@ std::string reason_without_samples(const MaterialFile& file, int number) {
   return "";
 }
 
+// A bootstrap set of the fit if it has some, else a draw from its covariance.
 ParameterSample sample_of(const MaterialFile& file, int number) {
   const FitRecord& fit = *file.fit;
-  const VecX p =
-      fit.sets.rows() > 0 ? VecX(fit.sets.row(number - 1).transpose()) : drawn(fit, number);
+  VecX p;
+  if (fit.sets.rows() > 0) {
+    p = fit.sets.row(number - 1).transpose();
+  } else {
+    p = drawn(fit, number);
+  }
   ParameterSample sample{file.material, {}, ""};
   const std::vector<MaterialParameter> numbers = parameters(sample.law);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
@@ -61,9 +70,9 @@ ParameterSample sample_of(const MaterialFile& file, int number) {
       if (one.name != fit.parameters[i].name) continue;
       *one.value = p[static_cast<Eigen::Index>(i)];
       sample.values.push_back({"parameter_" + one.name, *one.value, one.unit});
-      sample.words +=
-          fmt::format("{}{} = {:.5g}{}", sample.words.empty() ? "" : ", ", one.name, *one.value,
-                      one.unit == std::string("-") ? "" : " " + std::string(one.unit));
+      std::string unit;
+      if (one.unit != unit::none) unit = " " + one.unit;
+      append(sample.words, ", ", fmt::format("{} = {:.5g}{}", one.name, *one.value, unit));
     }
   TiedNumbers(sample.law, resolved(fit.ties).ties).follow();
   sample.words =

@@ -6,7 +6,7 @@ namespace langer {
 
 namespace {
 
-// numbers as their bytes: a cache is for the machine that made it
+// Writes and reads values as bytes. A cache is read only by the machine that wrote it.
 struct Bytes {
   std::string text;
   std::size_t at = 0;
@@ -50,6 +50,7 @@ struct Bytes {
   }
 };
 
+// A run and its key as one record of the journal.
 std::string written(const std::string& key, const ForwardPath& path) {
   Bytes bytes;
   bytes.put(key);
@@ -62,6 +63,8 @@ std::string written(const std::string& key, const ForwardPath& path) {
   return bytes.text;
 }
 
+// The inverse of written(). A record that is too short gives values of zero instead of reading
+// beyond its end.
 std::pair<std::string, ForwardPath> read(std::string text) {
   Bytes bytes{std::move(text)};
   std::pair<std::string, ForwardPath> found;
@@ -79,6 +82,7 @@ std::pair<std::string, ForwardPath> read(std::string text) {
 
 }  // namespace
 
+// Reads the runs that an earlier process kept.
 RunCache::RunCache(const std::string& journal) {
   if (journal.empty()) return;
   journal_ = std::make_unique<Journal>(journal);
@@ -92,15 +96,19 @@ RunCache::RunCache(const std::string& journal) {
 std::shared_ptr<const ForwardPath> RunCache::find(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   const auto found = paths_.find(key);
-  return found == paths_.end() ? nullptr : found->second;
+  if (found == paths_.end()) return nullptr;
+  return found->second;
 }
 
+// Keeps a run in memory and appends it to the journal at once, so that a killed process loses
+// nothing.
 std::shared_ptr<const ForwardPath> RunCache::keep(const std::string& key, ForwardPath path) {
   const std::lock_guard lock(mutex_);
   if (journal_) journal_->append(written(key, path));
   return paths_[key] = std::make_shared<const ForwardPath>(std::move(path));
 }
 
+// A journal without runs is of no use.
 RunCache::~RunCache() {
   if (journal_ && paths_.empty()) journal_->remove();
 }

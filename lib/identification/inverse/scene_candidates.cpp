@@ -10,6 +10,7 @@
 #include "accuracy/refinement/accuracy.hpp"
 #include "core/base/in_order.hpp"
 #include "core/base/interrupt.hpp"
+#include "core/base/text.hpp"
 #include "identification/inverse/forward_run.hpp"
 #include "identification/inverse/refuse.hpp"
 #include "mechanics/material/ties.hpp"
@@ -19,12 +20,13 @@ namespace langer {
 
 namespace {
 
-// one scene of a candidate: its keys have values
+// One variant of a candidate scene: values of the keys that `vary` names.
 struct Setting {
   std::vector<std::pair<std::string, double>> values;
   std::string words;  // "radius 2.5, fibre_angle 90"
 };
 
+// All combinations of the values of `vary`.
 std::vector<Setting> settings_of(const CandidateChoice& choice) {
   std::vector<Setting> all{{}};
   for (const CandidateValues& one : choice.vary) {
@@ -39,7 +41,7 @@ std::vector<Setting> settings_of(const CandidateChoice& choice) {
       for (const double value : one.values) {
         Setting next = before;
         next.values.push_back({one.key, value});
-        next.words += fmt::format("{}{} {:g}", next.words.empty() ? "" : ", ", name, value);
+        append(next.words, ", ", fmt::format("{} {:g}", name, value));
         longer.push_back(std::move(next));
       }
     all = std::move(longer);
@@ -47,12 +49,14 @@ std::vector<Setting> settings_of(const CandidateChoice& choice) {
   return all;
 }
 
-// by which numbers a scene is differentiated, and what each parameter changes of them
+// The numbers by which a scene is differentiated, and for each the parameter that moves it.
 struct Slopes {
   std::vector<std::string> keys;
   std::vector<std::pair<Eigen::Index, double>> of;  // parameter, factor
 };
 
+// A candidate scene: it is solved at the fitted parameters, and its Jacobian tells what it would
+// add to the information of the data.
 class SceneOf {
  public:
   SceneOf(const FitConfig& config, const FitProblem& problem, const FitResult& fit,
@@ -84,16 +88,16 @@ class SceneOf {
   }
 
  private:
+  // The contact whose friction a free parameter is, if it is one.
   std::optional<std::string> friction_of(std::size_t i) const {
-    const auto number = problem_.free[i].is_material_number()
-                            ? std::nullopt
-                            : scene_number(config_, problem_.free[i].key);
+    const auto number = scene_number(config_, problem_.free[i]);
     if (number && number->of == SceneNumber::Of::friction) {
       return std::optional(number->contact);
     }
     return std::nullopt;
   }
 
+  // The solve config of a variant. A varied fibre_angle turns the specimen.
   Loaded<SolveConfig> scene(const Setting& setting, double& angle) const {
     Tree tree = load_yaml(choice_.solve.path);
     for (std::size_t k = 0; k < setting.values.size(); ++k) {
@@ -118,6 +122,7 @@ class SceneOf {
     return loaded;
   }
 
+  // What the candidate measures: forces, or reactions and displacements of a set or at places.
   std::vector<Observation> observed(const ForwardRun& run) const {
     std::vector<Observation> all;
     const auto set = [&]() -> const std::vector<int>& {
@@ -144,8 +149,8 @@ class SceneOf {
         continue;
       }
       const std::string word = names(quantity)[static_cast<std::size_t>(quantity)];
-      one.of = quantity >= SceneQuantity::u_x ? Observation::Of::displacement
-                                              : Observation::Of::reaction;
+      one.of = Observation::Of::reaction;
+      if (quantity >= SceneQuantity::u_x) one.of = Observation::Of::displacement;
       one.axis = word.back() - 'x';
       for (std::size_t i = 0; i < choice_.places.size(); ++i) {
         const auto& [x, z] = choice_.places[i];
@@ -156,14 +161,17 @@ class SceneOf {
       }
       if (!choice_.places.empty()) continue;
       one.nodes = set();
-      one.weights.assign(one.nodes.size(), one.of == Observation::Of::reaction
-                                               ? 1.0
-                                               : 1.0 / static_cast<double>(one.nodes.size()));
+      // reactions are summed over the set, displacements are averaged
+      double weight = 1;
+      if (one.of == Observation::Of::displacement)
+        weight = 1 / static_cast<double>(one.nodes.size());
+      one.weights.assign(one.nodes.size(), weight);
       all.push_back(one);
     }
     return all;
   }
 
+  // Material numbers and friction, with the numbers that follow them by ties.
   Slopes slopes_of(const SolveConfig& scene) const {
     Slopes by;
     for (std::size_t i = 0; i < problem_.free.size(); ++i) {
@@ -183,14 +191,15 @@ class SceneOf {
     return by;
   }
 
-  // The states of the path count as many values as would be measured.
+  // The Jacobian over the standard deviation of a measurement. The states of the path together have
+  // the weight of `points` measured values.
   MatX weighted(const ForwardPath& path, const Slopes& by) const {
     const Eigen::Index states = path.values.rows();
     const Eigen::Index observations = path.values.cols();
     const double count =
         std::sqrt(static_cast<double>(choice_.points) / static_cast<double>(states));
-    const Eigen::Index of_each =
-        choice_.places.empty() ? 1 : static_cast<Eigen::Index>(choice_.places.size());
+    const auto of_each =
+        std::max<Eigen::Index>(1, static_cast<Eigen::Index>(choice_.places.size()));
     MatX J = MatX::Zero(states * observations, fit_.best.p.size());
     for (Eigen::Index o = 0; o < observations; ++o) {
       const Eigen::Index first = o / of_each * of_each;  // of the places of one quantity
@@ -212,6 +221,7 @@ class SceneOf {
   const std::string at_;
 };
 
+// A scene to solve for the advice.
 struct Wanted {
   std::size_t candidate;
   Setting setting;
@@ -227,14 +237,19 @@ std::vector<Wanted> wanted_of(const FitConfig& config) {
     if (choice.name.empty()) {
       name = std::filesystem::path(choice.solve.path).stem().string();
     }
-    for (const Setting& setting : settings_of(choice))
-      all.push_back({i, setting, setting.words.empty() ? name : name + ", " + setting.words});
+    for (const Setting& setting : settings_of(choice)) {
+      std::string title = name;
+      if (!setting.words.empty()) title += ", " + setting.words;
+      all.push_back({i, setting, title});
+    }
   }
   return all;
 }
 
 }  // namespace
 
+// Solves all variants in parallel. Variants that are measured `together` become one candidate with
+// the rows of both.
 SceneCandidates scene_candidates(const FitConfig& config, const FitProblem& problem,
                                  const FitResult& fit, const FindPlace& where) {
   SceneCandidates out;

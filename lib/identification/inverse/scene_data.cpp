@@ -18,6 +18,7 @@ namespace langer {
 
 namespace {
 
+// What a unit measures.
 UnitKind quantity_of(const std::string& unit) {
   if (unit == "mm") return UnitKind::length;
   if (unit == "N") return UnitKind::force;
@@ -58,6 +59,7 @@ std::optional<MeasuredUnit> unit_of(const std::string& name, const std::string& 
   return unit_in_name(name, quantity);
 }
 
+// The columns that the config names, by their keys.
 std::vector<std::pair<const char*, const std::string*>> asked(const FitColumns& c) {
   std::vector<std::pair<const char*, const std::string*>> all{{"t", &c.t},
                                                               {"time", &c.time},
@@ -84,6 +86,7 @@ std::vector<std::pair<const char*, const std::string*>> asked(const FitColumns& 
                 Error{at, key, std::move(found), std::move(expected), std::move(hint)});
 }
 
+// The units that a column may have, for a message.
 std::string known_units(const std::string& unit) {
   if (unit == "mm") return "one of length: mm, um, cm, m, in";
   if (unit == "N") return "one of force: N, mN, kN, gf, kgf, lbf";
@@ -92,6 +95,7 @@ std::string known_units(const std::string& unit) {
   return "no unit";
 }
 
+// The factor from the unit of a column to mm, N, MPa or s.
 double factor_of(const SceneColumn& column, const std::optional<MeasuredUnit>& unit) {
   if (!unit) return 1;
   if (unit->quantity != quantity_of(column.unit)) {
@@ -102,6 +106,7 @@ double factor_of(const SceneColumn& column, const std::optional<MeasuredUnit>& u
   return unit->factor;
 }
 
+// The index of a column by its name; refuses a name that the file does not have.
 std::size_t column_called(const std::vector<std::string>& names, const std::string& wanted,
                           const std::string& key, const Place& at) {
   const auto found = std::find(names.begin(), names.end(), wanted);
@@ -111,6 +116,7 @@ std::size_t column_called(const std::vector<std::string>& names, const std::stri
          did_you_mean(near));
 }
 
+// Columns of a curves file of Langer.
 SceneData from_curves(const FitData& data, const std::string& file) {
   const CurvesFile curves = read_curves(file);
   SceneData read;
@@ -132,6 +138,7 @@ SceneData from_curves(const FitData& data, const std::string& file) {
   return read;
 }
 
+// Columns of a CSV file, restricted to the rows that `where` chooses.
 SceneData from_table(const FitData& data, const std::string& file) {
   const auto columns = asked(*data.columns);
   CsvReading reading{data.decimal};
@@ -204,8 +211,12 @@ const SceneColumn* SceneData::find(const std::string& key) const {
 }
 
 SceneData read_scene_data(const FitData& data, const std::string& file) {
-  SceneData read = std::filesystem::path(file).extension() == ".h5" ? from_curves(data, file)
-                                                                    : from_table(data, file);
+  SceneData read;
+  if (std::filesystem::path(file).extension() == ".h5") {
+    read = from_curves(data, file);
+  } else {
+    read = from_table(data, file);
+  }
   if (data.name.empty()) {
     read.name = std::filesystem::path(file).stem().string();
   } else {

@@ -14,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// The key of a cached run: everything that decides its result, hashed.
 std::string key_of(const ForwardRun& run, const ForwardInput& input, const std::string& looks) {
   std::string text = to_yaml(run.config_at(input)) + looks;
   for (const std::string& key : input.slopes) text += key + "\n";
@@ -22,6 +23,7 @@ std::string key_of(const ForwardRun& run, const ForwardInput& input, const std::
 
 }  // namespace
 
+// Material, friction and requested derivatives at the parameters p.
 ForwardInput SceneTests::input_at(const VecX& p) const {
   ForwardInput input{with_parameters(law_, p), {}, {}};
   for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -31,7 +33,9 @@ ForwardInput SceneTests::input_at(const VecX& p) const {
   return input;
 }
 
-// Each once; those that are missing side by side.
+// Returns the runs of all wanted inputs. Cached runs are reused, missing ones are made in parallel.
+// A run that fails counts as a path without an end if its scene had an end before: then the trial
+// parameters are the cause.
 std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& wanted) {
   std::vector<Path> paths(wanted.size());
   std::vector<std::string> keys;
@@ -67,6 +71,7 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
   return paths;
 }
 
+// The runs of all scenes at p. Returns false, and keeps the reason, if one does not reach its end.
 bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
   const ForwardInput input = input_at(p);
   std::vector<Wanted> wanted;
@@ -80,6 +85,7 @@ bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
   return true;
 }
 
+// A quantity of the instrument: the free parameter if there is one, else the value of the config.
 double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     if (const auto& number = numbers_[i].measured;
@@ -91,6 +97,10 @@ double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const 
   return data.compliance;
 }
 
+// Reads a run as the instrument would: s_path = s_read - touch_offset - compliance (F_read -
+// force_offset) is the travel of the scene at each row, and the observations are interpolated
+// there. Rows before the beginning of the path are at rest. Returns false if a row is too far
+// beyond the end.
 bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
                       Read what, VecX& out) const {
   const double touch = measured_by(test, SceneNumber::Of::touch_offset, p);
@@ -110,11 +120,13 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
     const PathPlace place = place_on(path.t, test.kinks, *t);
     if (!place.exists) return false;
     for (const SceneCurve& curve : test.curves) {
-      const auto column = static_cast<Eigen::Index>(
-          curve.observation[curve.observation.size() > 1 ? static_cast<std::size_t>(row) : 0]);
+      // a curve has one observation, or one for each place that was measured
+      std::size_t which = 0;
+      if (curve.observation.size() > 1) which = static_cast<std::size_t>(row);
+      const auto column = static_cast<Eigen::Index>(curve.observation[which]);
+      const auto& states = what == Read::rate ? place.rate : place.value;
       double sum = 0;
-      for (const auto& [state, weight] : what == Read::rate ? place.rate : place.value)
-        sum += weight * of(state, column);
+      for (const auto& [state, weight] : states) sum += weight * of(state, column);
       if (what == Read::rate) {
         out[curve.first + row] = sum * test.over.rate(piece);
       } else {
@@ -125,6 +137,7 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
   return true;
 }
 
+// All values of all scenes at p. The force offset is added to forces.
 bool SceneTests::model(const VecX& p, VecX& values) {
   std::vector<Path> paths;
   if (!paths_at(p, paths)) return false;
@@ -150,18 +163,25 @@ bool SceneTests::model(const VecX& p, VecX& values) {
   return true;
 }
 
+// The Jacobian: columns of material numbers and friction from the runs, those of the instrument
+// from the rate of the observations along the path.
 bool SceneTests::slope(const VecX& p, MatX& J) {
   std::vector<Path> paths;
   if (!paths_at(p, paths)) return false;
   J = MatX::Zero(measured_.size(), p.size());
-  if (!(options_.quotients ? add_difference_quotients(p, paths, J)
-                           : add_path_sensitivities(p, paths, J)))
-    return false;
+  bool exists = false;
+  if (options_.quotients) {
+    exists = add_difference_quotients(p, paths, J);
+  } else {
+    exists = add_path_sensitivities(p, paths, J);
+  }
+  if (!exists) return false;
   add_instrument_columns(p, paths, J);
   return true;
 }
 
-// of what the runs differentiated themselves; numbers that follow others count with them
+// Columns from the derivatives that the runs computed themselves. A number that follows a parameter
+// by a tie adds its factor times its own derivative.
 bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& paths,
                                         MatX& J) const {
   for (std::size_t i = 0; i < tests_.size(); ++i) {
@@ -176,7 +196,8 @@ bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& 
   return true;
 }
 
-// one more run of each scene for each number, a step to the side that the box leaves
+// Columns from forward differences: one more run of each scene for each number. The step goes to
+// the other side if it would leave the box.
 bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J) {
   std::vector<Wanted> wanted;
   std::vector<std::pair<std::size_t, double>> steps;
@@ -184,11 +205,13 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
     if (numbers_[i].measured) continue;
     const FreeParameter& free = law_.free[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const double size = std::max(
-        std::abs(p[k]),
-        1e-3 * (free.unit == unit::deg || free.lower == free.upper ? 1 : free.upper - free.lower));
-    const double h =
-        (with_friction_ ? 1e-3 : 1e-4) * size * (p[k] + 1e-3 * size <= free.upper ? 1 : -1);
+    double width = free.upper - free.lower;
+    if (free.unit == unit::deg || width == 0) width = 1;
+    const double size = std::max(std::abs(p[k]), 1e-3 * width);
+    // the active set of friction needs longer steps
+    double h = 1e-4 * size;
+    if (with_friction_) h = 1e-3 * size;
+    if (p[k] + 1e-3 * size > free.upper) h = -h;
     VecX moved = p;
     moved[k] += h;
     steps.push_back({i, moved[k] - p[k]});
@@ -199,8 +222,8 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
   for (std::size_t step = 0; step < steps.size(); ++step)
     for (std::size_t i = 0; i < tests_.size(); ++i) {
       const SceneTest& test = tests_[i];
-      const ForwardPath &path = *paths[test.run],
-                        &other = *moved[step * forward_.size() + test.run];
+      const ForwardPath& path = *paths[test.run];
+      const ForwardPath& other = *moved[step * forward_.size() + test.run];
       VecX here, there;
       if (!other.complete || !read(test, path, path.values, p, Read::values, here) ||
           !read(test, other, other.values, p, Read::values, there))
@@ -211,6 +234,8 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
   return true;
 }
 
+// Columns of touch offset, force offset and compliance by the chain rule, with the rate dF/ds of
+// each observation at the row.
 void SceneTests::add_instrument_columns(const VecX& p, const std::vector<Path>& paths,
                                         MatX& J) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -243,6 +268,7 @@ void SceneTests::add_instrument_columns(const VecX& p, const std::vector<Path>& 
     }
 }
 
+// Sentences about tests that were read beyond the end of a path at the fitted offsets.
 std::vector<std::string> SceneTests::extrapolations(const VecX& p) const {
   std::vector<std::string> lines;
   for (const SceneTest& test : tests_) {
@@ -267,21 +293,17 @@ std::vector<std::string> SceneTests::extrapolations(const VecX& p) const {
   return lines;
 }
 
+// Measured and computed curves of all tests, for the report.
 std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
   std::vector<FittedCurve> all;
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const SceneTest& test = tests_[i];
     for (const SceneCurve& curve : test.curves) {
-      FittedCurve one{test.curves.size() > 1 ? test.name + "_" + curve.key : test.name,
-                      curve.key,
-                      curve.unit,
-                      test.over.key,
-                      test.over.unit,
-                      test.deviation,
-                      test.s,
-                      {},
-                      {},
-                      test.places};
+      std::string name = test.name;
+      if (test.curves.size() > 1) name += "_" + curve.key;
+      FittedCurve one{
+          std::move(name), curve.key, curve.unit, test.over.key, test.over.unit, test.deviation,
+          test.s,          {},        {},         test.places};
       const auto rows = static_cast<Eigen::Index>(test.s.size());
       const VecX measured = test.measured.segment(curve.first, rows);
       const VecX model = values.segment(first_[i] + curve.first, rows);

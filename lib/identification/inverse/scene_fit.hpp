@@ -49,7 +49,7 @@ class SceneTests : public FurtherTests {
   const std::string& last_failure() const {
     return failure_;
   }  // why the scene of a trial set has no end
-  // of tests whose values were read beyond the end of a path, at the offsets of p
+  // Sentences about tests that were read beyond the end of a path at the offsets of p.
   std::vector<std::string> extrapolations(const VecX& p) const;
   std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
   const std::vector<SceneTest>& tests() const { return tests_; }
@@ -70,8 +70,8 @@ class SceneTests : public FurtherTests {
   std::vector<Path> solved(const std::vector<Wanted>& wanted);
   bool paths_at(const VecX& p, std::vector<Path>& paths);
   double measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const;
-  // of the values of a test: those of `of`, which has a column for each observation, or their rate
-  // over s
+  // What to read of a test: values of `of`, which has a column for each observation, or their rate
+  // over s.
   enum class Read { values, rate };
   bool read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
             Read what, VecX& out) const;

@@ -13,6 +13,7 @@ namespace langer {
 
 namespace {
 
+// Reads the solve config of an item of `data` and its mesh.
 // the solve config of an item of data with its mesh
 Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
                                  const SceneTests::Where& where) {
@@ -33,9 +34,9 @@ Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
   return loaded;
 }
 
-// Where increments end: measured places that are no closer than half the largest of them. The
-// travel of an indenter that is pushed begins upright over its force, where no polynomial follows
-// it: there all places.
+// Where increments end: at measured values that are at least half the largest increment apart. A
+// force-controlled indenter begins with an infinite slope of travel over force, which no polynomial
+// follows: there all measured values are used.
 std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const FitConfig& config,
                              double largest) {
   constexpr double apart = 0.499;
@@ -45,20 +46,24 @@ std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const F
     for (std::size_t row = 0; row < test->s.size(); ++row) {
       const double s = test->s[row];
       std::size_t piece = test->stretch[row];
-      if (const auto t = test->over.find(
-              s - (test->over.key == "u_ind" ? config.data[test->data].touch_offset : 0), piece,
-              SceneTests::beyond_path);
-          t && *t > 0 && *t < 1)
-        places.insert(
-            {*t, test->over.key == "force" && *t < 2 * largest ? 1e-3 * largest : apart * largest});
+      double offset = 0;
+      if (test->over.key == "u_ind") offset = config.data[test->data].touch_offset;
+      const auto t = test->over.find(s - offset, piece, SceneTests::beyond_path);
+      if (!t || *t <= 0 || *t >= 1) continue;
+      double room = apart * largest;
+      if (test->over.key == "force" && *t < 2 * largest) room = 1e-3 * largest;
+      places.insert({*t, room});
     }
     kept.insert(test->kinks.begin(), test->kinks.end());
   }
   std::vector<double> stops;
   for (const auto& [t, needed] : places) {
     const auto behind = kept.lower_bound(t);
-    const double room = std::min(behind == kept.end() ? 1 : *behind - t,
-                                 behind == kept.begin() ? t : t - *std::prev(behind));
+    double room = 1;
+    if (behind != kept.end()) room = *behind - t;
+    double before = t;
+    if (behind != kept.begin()) before = t - *std::prev(behind);
+    room = std::min(room, before);
     if (room < needed) continue;
     stops.push_back(t);
     kept.insert(t);
@@ -66,6 +71,7 @@ std::vector<double> stops_of(const std::vector<const SceneTest*>& tests, const F
   return stops;
 }
 
+// What is observed of a run, and where, as a part of the key of its cache.
 std::string looks_of(const std::vector<Observation>& observations,
                      const std::vector<double>& stops) {
   std::string text;
@@ -139,13 +145,15 @@ void SceneTests::add_run(std::size_t item, double longer,
   forward_.push_back(std::move(run));
 }
 
+// Whether an offset or the compliance of an item of `data` is a free parameter.
 bool SceneTests::offset_free(std::size_t item) const {
   return std::any_of(law_.free.begin(), law_.free.end(), [&](const FreeParameter& p) {
-    const auto number = p.is_material_number() ? std::nullopt : scene_number(config_, p.key);
+    const auto number = scene_number(config_, p);
     return number && number->of != SceneNumber::Of::friction && number->data == item;
   });
 }
 
+// Reads all files, defines their observations and stops, and collects measured values and weights.
 void SceneTests::add_tests() {
   std::vector<std::vector<Observation>> observations(forward_.size());
   std::size_t next = 0;
@@ -166,10 +174,13 @@ void SceneTests::add_tests() {
          ++n)
       read.name = fmt::format(
           "{}_{}", read.name.substr(0, read.name.find_last_not_of("_0123456789") + 1), n);
-    tests_.push_back(scene_test(data, i, read, *forward_[run], config_.noise(),
-                                offset_free(i) ? beyond_path : 1e-6, where_, observations[run]));
+    double slack = 1e-6;  // part of the path by which values may lie beyond its end
+    if (offset_free(i)) slack = beyond_path;
+    tests_.push_back(scene_test(data, i, read, *forward_[run], config_.noise(), slack, where_,
+                                observations[run]));
     tests_.back().run = run;
   }
+  // Each file of --curves must have an item of `data` that takes it.
   if (next < files_.size())
     throw Failure(Exit::config,
                   Error{where_("data"), "data", fmt::format("{} files by --curves", files_.size()),
@@ -198,6 +209,8 @@ void SceneTests::add_tests() {
   weight_ = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
 }
 
+// Finds out what each free parameter is for the scenes: a number of the material, friction of a
+// contact, or a quantity of the instrument that the test can determine.
 void SceneTests::add_numbers() {
   for (std::size_t i = 0; i < law_.free.size(); ++i) {
     const FreeParameter& p = law_.free[i];
@@ -207,16 +220,16 @@ void SceneTests::add_numbers() {
       throw Failure(Exit::config,
                     Error{where_(key), key, std::move(found), std::move(expected), ""});
     };
-    if (const auto number = p.is_material_number() ? std::nullopt : scene_number(config_, p.key)) {
+    if (const auto number = scene_number(config_, p)) {
       if (number->of == SceneNumber::Of::friction) {
         one.contact = number->contact;
         std::set<std::string> contacts;
         for (const auto& run : forward_)
           for (const auto& [name, contact] : run->config().contacts) contacts.insert(name);
+        std::string expected = "none: no scene has an indenter";
+        if (!contacts.empty()) expected = fmt::format("one of {}", fmt::join(contacts, ", "));
         if (!contacts.count(one.contact))
-          refuse("no scene has a contact \"" + one.contact + "\"",
-                 contacts.empty() ? "none: no scene has an indenter"
-                                  : fmt::format("one of {}", fmt::join(contacts, ", ")));
+          refuse("no scene has a contact \"" + one.contact + "\"", expected);
         with_friction_ = true;
       } else {
         one.measured = number;
@@ -240,6 +253,8 @@ void SceneTests::add_numbers() {
   }
 }
 
+// Registers a number of the scene by which runs are differentiated, and the parameter that moves
+// it.
 void SceneTests::add_slope(const std::string& key, std::size_t number, double factor) {
   slopes_.push_back(key);
   slope_of_.push_back({{number, factor}});

@@ -15,7 +15,7 @@ namespace langer {
 
 namespace {
 
-// what is linear between the ends of its pieces
+// An abscissa that is linear between kinks.
 Abscissa sampled(std::string key, const std::vector<double>& kinks,
                  const std::function<double(double)>& s) {
   Abscissa over;
@@ -28,6 +28,7 @@ Abscissa sampled(std::string key, const std::vector<double>& kinks,
   return over;
 }
 
+// The points of all histories of the scene: measured curves may have kinks there.
 std::vector<double> kinks_of(const SolveConfig& scene) {
   std::set<double> t{0, 1};
   for (const auto& [name, contact] : scene.contacts) {
@@ -58,6 +59,8 @@ bool gives_travel(const FitData& data, const SolveConfig& scene) {
          !data.columns->force.empty();
 }
 
+// The imposed force of a force-controlled indenter as a function of the path parameter. Offsets of
+// the instrument cannot be taken into account here.
 std::function<double(double)> pushed_by(const FitData& data, const std::string& at,
                                         const SolveConfig& scene, const FindPlace& where) {
   for (const auto& [key, given] : {std::pair("touch_offset", data.touch_offset),
@@ -73,6 +76,7 @@ std::function<double(double)> pushed_by(const FitData& data, const std::string& 
   };
 }
 
+// The travel of an indenter as a function of the path parameter.
 std::function<double(double)> travel_of(const FitData& data, const SolveConfig& scene,
                                         const std::string& at, const FindPlace& where) {
   const std::string key = at + "columns.u_ind";
@@ -118,6 +122,7 @@ std::function<double(double)> load_of(const FitData& data, const std::string& at
       sets.empty() ? "a scene with loads" : "one of " + list_words(sets));
 }
 
+// The nodes of the set `on`; refuses a name that the scene does not have.
 std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& mesh,
                         const FindPlace& where) {
   const auto set = mesh.node_sets.find(data.on);
@@ -129,6 +134,7 @@ std::vector<int> set_of(const FitData& data, const std::string& at, const Mesh& 
                "one of " + list_words(known), did_you_mean(near));
 }
 
+// The force on the indenter that the config names, or on the only one.
 Observation force_of(const FitData& data, const std::string& at, const SolveConfig& scene,
                      const FindPlace& where) {
   if (scene.contacts.empty())
@@ -148,15 +154,24 @@ Observation force_of(const FitData& data, const std::string& at, const SolveConf
   return one;
 }
 
+// Places in the columns x, y and z; NaN for a height that is not given.
 std::vector<Vec3> places_in(const SceneData& file) {
   std::vector<Vec3> places;
-  const SceneColumn *x = file.find("x"), *y = file.find("y"), *z = file.find("z");
+  const SceneColumn* x = file.find("x");
+  const SceneColumn* y = file.find("y");
+  const SceneColumn* z = file.find("z");
   if (!x && !y && !z) return places;
-  for (std::size_t i = 0; i < file.rows.size(); ++i)
-    places.push_back({x ? x->values[i] : 0, y ? y->values[i] : std::nan(""), z ? z->values[i] : 0});
+  for (std::size_t i = 0; i < file.rows.size(); ++i) {
+    Vec3 place(0, std::nan(""), 0);
+    if (x) place[0] = x->values[i];
+    if (y) place[1] = y->values[i];
+    if (z) place[2] = z->values[i];
+    places.push_back(place);
+  }
   return places;
 }
 
+// Adds an observation unless there is an equal one. Returns its index.
 std::size_t added(std::vector<Observation>& observations, Observation one) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Observation& o = observations[i];
@@ -206,7 +221,7 @@ std::vector<std::size_t> observed(const FitData& data, const std::string& at,
   return of_row;
 }
 
-// what is left of the travel that was read, as the config has it
+// The measured travel less touch offset and compliance, with the values of the config.
 double own_travel(const FitData& data, const SceneData& file, std::size_t row, double s) {
   if (!file.find("u_ind")) return s;
   const SceneColumn* force = file.find("force");
@@ -216,6 +231,8 @@ double own_travel(const FitData& data, const SceneData& file, std::size_t row, d
 
 }  // namespace
 
+// Finds the path parameter at which the abscissa has a value, searching from `piece` on. `slack` is
+// the part of the range by which a value may be outside the first and the last piece.
 std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double slack) const {
   double most = 0;
   for (double one : s) most = std::max(most, std::abs(one));
@@ -225,8 +242,10 @@ std::optional<double> Abscissa::find(double wanted, std::size_t& piece, double s
     if (a == b) continue;
     const bool last = k + 2 == t.size();
     const bool first = k == 0;
-    const double low = std::min(a, b) - (last || first ? slack : 1e-9) * most;
-    const double high = std::max(a, b) + (last || first ? slack : 1e-9) * most;
+    double margin = 1e-9 * most;
+    if (last || first) margin = slack * most;
+    const double low = std::min(a, b) - margin;
+    const double high = std::max(a, b) + margin;
     if (wanted < low || wanted > high) continue;
     piece = k;
     return t[k] + (wanted - a) / (b - a) * (t[k + 1] - t[k]);
@@ -254,10 +273,12 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
       double left_out = 0;
       for (std::size_t j = k + 1; j-- > 0;) {
         double so_far = 0;
-        if (i == 0) {
-          so_far = (j == 0 ? left_out : never);
-        } else {
+        if (i > 0) {
           so_far = cost[j] + left_out;
+        } else if (j == 0) {
+          so_far = left_out;
+        } else {
+          so_far = never;
         }
         if (i == 0 && k > 0 && j == 0) so_far += 0.5 * std::abs(s[1] - s[0]);
         if (i > 0 && j == k)
@@ -279,9 +300,7 @@ std::vector<std::size_t> Abscissa::stretches(const std::vector<double>& values,
   }
   std::vector<std::size_t> out(n, 0);
   std::size_t k = 0;
-  if (n == 0) {
-    k = 0;
-  } else {
+  if (n > 0) {
     k = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   }
   for (std::size_t i = n; i-- > 0; k = from[i][k]) out[i] = k;
@@ -308,6 +327,7 @@ Abscissa abscissa_of(const FitData& data, std::size_t item, const SolveConfig& s
   return sampled("t", kinks, [](double t) { return t; });
 }
 
+// A measured file of a scene: its abscissa on the path, its curves and their observations.
 SceneTest scene_test(const FitData& data, std::size_t item, const SceneData& file,
                      const ForwardRun& run, double noise, double slack, const FindPlace& where,
                      std::vector<Observation>& observations) {
@@ -367,6 +387,7 @@ namespace {
 struct PolynomialWeights {
   VecX value, rate;
 };
+// Weights of the Lagrange polynomial through the nodes, and of its derivative.
 PolynomialWeights polynomial_weights(const std::vector<double>& nodes, double at) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   PolynomialWeights weights{VecX::Ones(n), VecX::Zero(n)};
@@ -387,11 +408,14 @@ PolynomialWeights polynomial_weights(const std::vector<double>& nodes, double at
 
 }  // namespace
 
+// Where a value of the path parameter is among the states of a run: weights of neighbouring states
+// that interpolate values and rates between two kinks.
 PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kinks, double at) {
   PathPlace found;
   const auto n = static_cast<Eigen::Index>(t.size());
   const auto time = [&](Eigen::Index i) {
-    return i < 0 ? 0 : t[static_cast<std::size_t>(i)];
+    if (i < 0) return 0.0;  // the undeformed state
+    return t[static_cast<std::size_t>(i)];
   };
   if (at <= 0) return found;  // at rest
   double begin = 0, end = 1;
@@ -400,7 +424,7 @@ PathPlace place_on(const std::vector<double>& t, const std::vector<double>& kink
     if (kink <= at - 1e-9 && kink < 1 - 1e-9) begin = std::max(begin, kink);
     if (kink >= at - 1e-9) end = std::min(end, kink);
   }
-  // of the states between those kinks, both included
+  // Only states between those two kinks count, both included.
   Eigen::Index first = -1;
   Eigen::Index last = n - 1;
   while (first + 1 < n && time(first) < begin - 1e-9) ++first;

@@ -14,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// A vector of three values per node as a list of vectors.
 std::vector<Vec3> by_node(const VecX& all) {
   std::vector<Vec3> out;
   for (Eigen::Index i = 0; i < all.size(); i += 3) out.push_back(all.segment<3>(i));
@@ -24,6 +25,8 @@ std::string travel_of(const RigidContact& contact) { return "travel_" + contact.
 
 }  // namespace
 
+// The derivative of a force against a direction: -d_force . way/|way|, or that of its size if there
+// is no direction.
 double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force) {
   if (const double length = way.norm(); length > 0) return -d_force.dot(way) / length;
   const double size = force.norm();
@@ -31,12 +34,14 @@ double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_forc
   return 0;
 }
 
+// The force on one of several contacts, from its components in a record.
 Vec3 force_on(const StepRecord& record, const std::string& contact) {
   Vec3 force;
   for (int k = 0; k < 3; ++k) force[k] = record.scalars.at("force_" + contact + "_" + "xyz"[k]);
   return force;
 }
 
+// The derivative of the size of the total contact force: d|F| = F . dF/|F|.
 double length_derivative(const StepRecord& whole, const SceneParameter& parameter) {
   Vec3 d;
   for (int k = 0; k < 3; ++k)
@@ -50,6 +55,7 @@ double force_derivative(const StepRecord& whole, const StepRecord& derivative) {
   return derivative_against(whole.u_ind, whole.force_ind, derivative.force_ind);
 }
 
+// The undeformed state does not depend on the parameters: all derivatives start at zero.
 Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& where)
     : run_(run),
       moved_(moved_sets(config)),
@@ -62,22 +68,25 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
   d_earlier_ = d_last_;
 }
 
+// Adds the derivatives to a listener: each accepted state is differentiated before the listener
+// sees it.
 RunListener Sensitivity::along(RunListener listener) {
   if (parameters().empty()) return listener;
   if (last_.t > 0)
     run_.statics
         .factorize_accepted();  // the increment after a kept step begins with it, as it would have
-  listener.of_part = [this, also = std::move(listener.of_part)](StepRecord& record) {
-    if (also && !also(record)) return false;
+  const auto next_of_part = listener.of_part;
+  listener.of_part = [this, next_of_part](StepRecord& record) {
+    if (next_of_part && !next_of_part(record)) return false;
     advance(record);
     return true;
   };
-  listener.of_whole = [this, also = std::move(listener.of_whole)](StepRecord& whole,
-                                                                  const SolveReport& report) {
+  const auto next_of_whole = listener.of_whole;
+  listener.of_whole = [this, next_of_whole](StepRecord& whole, const SolveReport& report) {
     now_.clear();
     for (const StepRecord& derivative : of_part_) now_.push_back(of_whole(derivative, whole));
     write(whole);
-    if (also) also(whole, report);
+    if (next_of_whole) next_of_whole(whole, report);
   };
   return listener;
 }
@@ -90,18 +99,22 @@ Companion Sensitivity::companion() {
           }};
 }
 
+// The derivatives at the last state, for the summary of the run.
 std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
   std::vector<Summary> out;
   for (const auto& [name, value] : last.scalars)
-    for (const SceneParameter& p : parameters())
-      if (name.starts_with("d_") && name.ends_with("_d_" + p.name))
-        out.push_back({name,
-                       name == derivative_name("force_N", p) ? length_derivative(last, p) : value,
-                       "-"});
+    for (const SceneParameter& p : parameters()) {
+      if (!name.starts_with("d_") || !name.ends_with("_d_" + p.name)) continue;
+      double derivative = value;
+      if (name == derivative_name("force_N", p)) derivative = length_derivative(last, p);
+      out.push_back({name, derivative, "-"});
+    }
   return out;
 }
 
-// At fixed u, differences of what the laws say, after the tangent has been made there.
+// The explicit derivatives of internal forces and energy by each parameter at fixed displacements,
+// by central differences; one difference where they are linear. The tangent has been made there
+// before.
 std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies) {
   Assembler& body = run_.body;
   const VecX& u = run_.statics.accepted().u;
@@ -111,7 +124,7 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!parameters_.of_laws(i)) {
       for (const RigidContact& contact : scene.contacts)
-        out[i].mu.push_back(contact.name == parameters_.contact(i) ? 1 : 0);
+        out[i].mu.push_back(static_cast<double>(contact.name == parameters_.contact(i)));
       continue;
     }
     const double h = parameters_.step(i);
@@ -121,11 +134,11 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     };
     const Assembler::Forces more = with(h);
     const bool linear = parameters_.linear(i);
-    const Assembler::Forces less = linear ? Assembler::Forces{body.f_int(), body.W()} : with(-h);
-    double width = 0;
-    if (linear) {
-      width = h;
-    } else {
+    // forces that are linear in the number need one difference
+    Assembler::Forces less{body.f_int(), body.W()};
+    double width = h;
+    if (!linear) {
+      less = with(-h);
       width = 2 * h;
     }
     out[i].f = (more.f - less.f) / width;
@@ -134,6 +147,8 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   return out;
 }
 
+// Direct differentiation of one increment: K du/dp = -df/dp with the factorized tangent of the
+// accepted state, contact and history included. It follows the two last states.
 void Sensitivity::advance(const StepRecord& record) {
   const StateTangent tangent(run_.statics, earlier_);
   std::vector<double> energies, of_movement;
@@ -164,6 +179,7 @@ void Sensitivity::advance(const StepRecord& record) {
   d_last_ = std::move(d);
 }
 
+// The derivative of a state of the reduced body, as a record.
 StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d,
                                 const VecX& reactions, double energy) const {
   StepRecord out;
@@ -185,6 +201,7 @@ StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative&
   return out;
 }
 
+// The same on the full body, as the symmetry reduction unfolds it.
 StepRecord Sensitivity::of_whole(const StepRecord& derivative, const StepRecord& whole) const {
   if (run_.reduction.point()) return of_mesh(derivative, whole);
   StepRecord out = *run_.reduction.whole(derivative);
@@ -195,9 +212,9 @@ StepRecord Sensitivity::of_whole(const StepRecord& derivative, const StepRecord&
   return out;
 }
 
-// u' is linear in X, and the forces at the nodes of a mesh that is deformed alike everywhere are P'
-// times the integrals of their gradients:  P' = 1/V sum f'_c X_c^T over the corners of the
-// hexahedron.
+// On a mesh that a homogeneous state replaced: u' is linear in X, and the nodal forces of a
+// homogeneous deformation are P' times the integrals of the shape function gradients, with P' = 1/V
+// sum f'_c X_c^T over the corners of the hexahedron.
 StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& whole) const {
   const Mesh& point = run_.reduction.mesh();
   const Assembler& mesh = *run_.reduction.mesh_of_point();
@@ -227,14 +244,14 @@ StepRecord Sensitivity::of_mesh(const StepRecord& derivative, const StepRecord& 
   return out;
 }
 
+// Writes the derivatives of displacements, reactions, forces, torques and energy into the record.
 void Sensitivity::write(StepRecord& whole) const {
   const std::vector<RigidContact>& contacts = run_.scene.contacts;
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const SceneParameter& p = parameters()[i];
     const StepRecord& d = now_[i];
-    whole.point_fields[derivative_name("u", p)] = d.u,
-                                            whole.point_fields[derivative_name("reaction", p)] =
-                                                d.reaction;
+    whole.point_fields[derivative_name("u", p)] = d.u;
+    whole.point_fields[derivative_name("reaction", p)] = d.reaction;
     auto& scalars = whole.scalars;
     scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
     if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
@@ -263,6 +280,7 @@ void Sensitivity::write(StepRecord& whole) const {
   }
 }
 
+// Restores the derivatives of a state that an earlier run kept, to continue from it.
 void Sensitivity::kept(const StepRecord& whole) {
   earlier_ = std::move(last_);
   last_ = run_.reduction.reduced(whole);

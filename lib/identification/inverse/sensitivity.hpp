@@ -59,13 +59,13 @@ class Sensitivity {
   std::vector<StepRecord> of_part_, now_;
 };
 
-// of -force . way/|way|, way unchanged but for its length; where there is no way of |force|
+// Derivative of -force . way/|way| with a fixed direction; of |force| if there is no way.
 double derivative_against(const Vec3& way, const Vec3& force, const Vec3& d_force);
-// of a record with several indenters: of the body on one of them [N]
+// The force of the body on one of several indenters [N].
 Vec3 force_on(const StepRecord& record, const std::string& contact);
-// of the length of force_ind, by the derivatives that a record of the whole body holds
+// Derivative of the size of force_ind, from the derivatives in a record of the whole body.
 double length_derivative(const StepRecord& whole, const SceneParameter& parameter);
-// of the column `force` (post/curves.hpp), whole: the state
+// Derivative of the column `force` (post/curves.hpp). whole: the state.
 double force_derivative(const StepRecord& whole, const StepRecord& derivative);
 
 }  // namespace langer

@@ -11,6 +11,8 @@
 
 namespace langer {
 
+// What a fitted material file says about its parameters: covariance of those with a variance, and
+// the keys of the numbers that follow each of them, ties included.
 ParameterKnowledge knowledge_of(const MaterialFile& file) {
   ParameterKnowledge known;
   if (!file.fit) return known;
@@ -55,11 +57,12 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   return known;
 }
 
+// Reads the covariance and asks the run for the derivative by each number it needs.
 ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& material_file,
                                        const Run::Where& where) {
   if (config.uncertainty.value_or(UncertaintyBy::none) == UncertaintyBy::none) return {};
   const bool holds_a_fit = std::filesystem::path(material_file).extension() == ".h5";
-  ParameterKnowledge known = ParameterKnowledge{};
+  ParameterKnowledge known;
   if (holds_a_fit) known = knowledge_of(read_material(material_file));
   if (known.names.empty())
     throw Failure(
@@ -72,6 +75,8 @@ ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& m
   return known;
 }
 
+// The standard deviation by linear propagation, sqrt(g^T C g). If parameter j were known exactly
+// the variance would be lower by (C g)_j^2 / C_jj (conditional normal distribution).
 ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& by_key) {
   const VecX g = known.follow.transpose() * by_key;
   const VecX Cg = known.covariance * g;
@@ -91,7 +96,7 @@ ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& by_
 
 namespace {
 
-// g of a force at a state, by its words in the records
+// The gradient of a force at a state by the keys of the material.
 VecX derivatives(const std::vector<SceneParameter>& numbers, const ParameterKnowledge& known,
                  const std::function<double(const SceneParameter&)>& of) {
   VecX g = VecX::Zero(static_cast<Eigen::Index>(known.keys.size()));
@@ -143,13 +148,14 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
   return out;
 }
 
+// Adds the deviations to each record behind the derivatives that they need.
 Companion Uncertainty::beside(Companion sensitivity) const {
   if (known_.names.empty()) return sensitivity;
   return {sensitivity.kept, [this, along = sensitivity.along](RunListener listener) {
-            listener.of_whole = [this, also = std::move(listener.of_whole)](
-                                    StepRecord& whole, const SolveReport& report) {
+            const auto next = listener.of_whole;
+            listener.of_whole = [this, next](StepRecord& whole, const SolveReport& report) {
               write(whole);
-              if (also) also(whole, report);
+              if (next) next(whole, report);
             };
             return along(std::move(listener));
           }};
@@ -160,6 +166,7 @@ void Uncertainty::write(StepRecord& whole) const {
     whole.scalars[force.name + "_deviation"] = force.deviation;
 }
 
+// The deviations for the summary of a run.
 std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces) {
   std::vector<Summary> out;
   for (const ForceUncertainty& force : forces) {
@@ -170,6 +177,8 @@ std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces) {
   return out;
 }
 
+// One sentence: the force, its discretisation error, its deviation, and what knowing a parameter
+// would reduce it to.
 std::string in_words(const ForceUncertainty& force, std::optional<double> cells) {
   const auto percent = [&](double part) {
     return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(force.value), 1e-300));
@@ -177,11 +186,14 @@ std::string in_words(const ForceUncertainty& force, std::optional<double> cells)
   std::string words = fmt::format("{} {:.4g} N", force.name, force.value);
   if (cells) words += fmt::format(" +- {} (cells)", percent(*cells));
   words += fmt::format(" +- {} (parameters", percent(force.deviation));
-  int said = 0;
+  // at most three parameters, and only those that reduce the deviation by a tenth
+  std::string reductions;
+  int listed = 0;
   for (const auto& part : force.parts)
-    if (part.without < 0.9 * force.deviation && said++ < 3)
-      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without),
-                           part.name);
+    if (part.without < 0.9 * force.deviation && listed++ < 3)
+      append(reductions, ", ",
+             fmt::format("{} if {} were known", percent(part.without), part.name));
+  if (!reductions.empty()) words += "; " + reductions;
   return words + ")";
 }
 

@@ -29,7 +29,7 @@ struct ParameterKnowledge {
 ParameterKnowledge knowledge_of(const MaterialFile& file);
 // Where config asks for `uncertainty`: of the material's file (empty: there is none). The
 // parameters are those of config.sensitivity then, beside those named there. Throws Failure(config)
-// where the file tells nothing of them.
+// where the file has no covariance.
 ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& material_file,
                                        const Run::Where& where);
 

@@ -1,5 +1,5 @@
-// A word now and then to the person who waits: what is done, in tenths, once it has taken longer
-// than two seconds.
+// Progress of long work on the terminal: a line for each tenth, once it has taken longer than two
+// seconds, with an estimate of the remaining time.
 #pragma once
 
 #include <chrono>

@@ -11,7 +11,8 @@ namespace langer {
 
 namespace {
 
-// Effects of one trajectory (k, m); empty where a curve is missing.
+// Elementary effects of one trajectory (k, m). It moves one parameter after the other by Delta, in
+// random order. Empty if a curve on the way does not exist.
 MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper, int levels,
                 Random random) {
   const auto k = lower.size();
@@ -44,11 +45,14 @@ MatX trajectory(const ParametricCurve& phi, const VecX& lower, const VecX& upper
   return effects;
 }
 
+// Mean, mean size and standard deviation of the effects, each (k, m).
 struct Moments {
   MatX mu, mu_star, sigma;
 };
 
 template <class Pick>
+// Moments over the trajectories that pick(0), pick(1), ... choose: all of them, or a bootstrap
+// sample.
 Moments moments(const std::vector<MatX>& all, Pick pick) {
   Moments m;
   const auto n = static_cast<double>(all.size());
@@ -63,6 +67,7 @@ Moments moments(const std::vector<MatX>& all, Pick pick) {
   return m;
 }
 
+// Means over the points of each group; NaN for an empty group.
 MatX means(const MatX& A, const std::vector<std::vector<int>>& groups) {
   MatX result = MatX::Zero(A.rows(), static_cast<Eigen::Index>(groups.size()));
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -101,6 +106,7 @@ Morris morris(const CurveMaker& maker, const VecX& lower, const VecX& upper, int
   result.trajectories = static_cast<int>(all.size());
   if (all.size() < 2) return result;
   const Moments best = moments(all, [](std::size_t r) { return r; });
+  // Intervals by the bootstrap: whole trajectories are drawn with replacement.
   Resamples mu, mu_star, sigma, group_mu_star, group_sigma;
   for (int b = 0; b < options.resamples; ++b) {
     Random random(options.seed, (1ull << 40) + static_cast<std::uint64_t>(b));

@@ -28,6 +28,7 @@ OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const Ve
       if (i > 0) d.col(i - 1) = (after - before) / step;
       before = after;
     }
+    // The number of points of the curve is known after the first parameter.
     if (j == 0) {
       result.mu_star.resize(value.size(), d.rows());
       result.s = result.spread = result.mu_star;
@@ -42,6 +43,7 @@ OneAtATime one_at_a_time(const ParametricCurve& phi, const VecX& value, const Ve
   return result;
 }
 
+// Whether a point is in a zone. Both ends belong to it.
 bool inside(double x, const Zone& zone) {
   const double rounding = 1e-9 * (zone.to - zone.from);  // 0.2 may be 0.19999999999999998
   return x >= zone.from - rounding && x <= zone.to + rounding;

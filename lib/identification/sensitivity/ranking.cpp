@@ -14,6 +14,7 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
                 const std::optional<FitRecord>& fit,
                 const std::function<Place(const std::string&)>& where) {
   const std::vector<MaterialParameter> known = parameters(material);
+  // Without a list of parameters those of the fit are ranked.
   std::vector<RankedParameter> asked = config.parameters;
   if (asked.empty() && fit)
     for (const FittedParameter& p : fit->parameters)
@@ -48,6 +49,7 @@ Ranking ranking(const SensitivityConfig& config, Material& material,
           if (f.name == n.name) return &f;
       return nullptr;
     }();
+    // Bounds in order of preference: given ones, a fraction of the value, those of the fit.
     if (p.lower) {
       n.lower = *p.lower;
       n.upper = *p.upper;

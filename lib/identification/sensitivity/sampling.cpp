@@ -7,6 +7,7 @@
 
 namespace langer {
 
+// The indices of the points of each zone.
 std::vector<std::vector<int>> points_in(const std::vector<double>& x,
                                         const std::vector<Zone>& zones) {
   std::vector<std::vector<int>> groups;
@@ -18,6 +19,7 @@ std::vector<std::vector<int>> points_in(const std::vector<double>& x,
   return groups;
 }
 
+// The 95 % interval from the quantiles of the resamples.
 Estimate Resamples::around(const MatX& value) const {
   Estimate e{value, value, value};
   std::vector<double> sorted;

@@ -27,7 +27,7 @@ struct SamplingOptions {
   int threads = 1;                       // changes nothing but the time
   int resamples = 500;                   // of the bootstrap
   std::vector<std::vector<int>> groups;  // points taken together, such as those of a zone of strain
-  std::function<void(double)> progress;  // told the part done, 0 to 1
+  std::function<void(double)> progress;  // is called with the part done, 0 to 1
 };
 
 // the points between the ends of each zone, as zone_means takes them

@@ -16,6 +16,7 @@ void write_rates(const h5::Group& group, const std::string& name, const MatX& A,
   group.annotate(name, "units", units);
 }
 
+// Value and interval as three datasets.
 void write_estimate(const h5::Group& group, const std::string& name, const Estimate& e,
                     const std::string& unit) {
   write_matrix(group, name, e.value, unit);
@@ -56,6 +57,7 @@ std::string effect_unit(const std::string& parameter_unit) {
   return "MPa_per_" + parameter_unit;
 }
 
+// Indices of each zone, for the summary of a pipeline.
 std::vector<Summary> summary_of(const SensitivityRecord& r) {
   const MatX mu_star = zone_means(r.effects.mu_star, r.strain, r.zones);
   const MatX s = zone_means(r.effects.s, r.strain, r.zones);
@@ -84,6 +86,7 @@ std::vector<Summary> summary_of(const SensitivityRecord& r) {
   return all;
 }
 
+// Writes the study as docs/schema.md describes it.
 void write_sensitivity(const std::string& path, const SensitivityRecord& r,
                        const Identity& identity) {
   h5::File file = h5::File::create(path);

@@ -22,6 +22,7 @@ std::vector<double> row(const MatX& A, std::size_t j) {
   return {x.data(), x.data() + x.size()};
 }
 
+// One row per strain, three columns per parameter.
 std::string effects_csv(const SensitivityRecord& r) {
   std::vector<Column> columns{{"strain", "-", r.strain}, {"stress", "MPa", r.curve}};
   const MatX range = over_range(r, r.effects.mu_star);
@@ -35,6 +36,7 @@ std::string effects_csv(const SensitivityRecord& r) {
   return csv(columns);
 }
 
+// One row per zone and parameter, all methods next to each other.
 std::string zones_csv(const SensitivityRecord& r) {
   const auto of = [&](const MatX& A) {
     return zone_means(A, r.strain, r.zones);
@@ -76,6 +78,7 @@ std::string zones_csv(const SensitivityRecord& r) {
 
 namespace {
 
+// An estimate and both ends of its interval, for each parameter.
 void add_columns(std::vector<Column>& columns, const std::string& what, const std::string& unit,
                  const SensitivityRecord& r, const Estimate& e) {
   for (std::size_t j = 0; j < r.parameters.size(); ++j) {
@@ -110,6 +113,7 @@ std::string sobol_csv(const SensitivityRecord& r) {
   return csv(columns);
 }
 
+// Ranks the parameters in each zone, and names interactions that one-at-a-time effects miss.
 std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
   std::vector<std::string> lines;
   const MatX range = over_range(r, zone_means(r.effects.mu_star, r.strain, r.zones));

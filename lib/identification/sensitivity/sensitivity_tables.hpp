@@ -1,4 +1,4 @@
-// The tables of a sensitivity study as CSV, and what is said of it.
+// The tables of a sensitivity study as CSV, and its report in words.
 #pragma once
 
 #include <string>

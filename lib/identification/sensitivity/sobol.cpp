@@ -12,6 +12,7 @@ namespace langer {
 
 namespace {
 
+// Blocks of rows: units of work for the threads and of the resampling for intervals.
 constexpr int n_blocks = 64;
 
 // Sums over the rows of a block. Curves are taken less the curve at the middle of the box, which
@@ -41,11 +42,13 @@ struct Sums {
   }
 };
 
+// Sensitivity indices, and mean and variance of the curve.
 struct Shares {
   MatX first, total, group_first, group_total;
   VecX mean, variance;
 };
 
+// Indices from the sums: numerators by the estimators of the header, divided by the variance.
 Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
   Shares r;
   const double n = s.n;
@@ -56,8 +59,10 @@ Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
                      ((s.M.colwise() - s.A).array().colwise() * r.mean.array()).matrix()) /
                     n;
   const MatX rest = s.D / (2 * n);
+  // A point without variance has no index.
   const auto ratio = [](double x, double V) {
-    return V > 0 ? x / V : std::numeric_limits<double>::quiet_NaN();
+    if (V > 0) return x / V;
+    return std::numeric_limits<double>::quiet_NaN();
   };
   const auto m = part.rows();
   const auto k = part.cols();
@@ -85,13 +90,15 @@ Shares shares(const Sums& s, const std::vector<std::vector<int>>& groups) {
   return r;
 }
 
-// (2 k) of one row, in [0, 1)
+// A row of independent random numbers in [0, 1).
 VecX independent(Eigen::Index size, Random random) {
   VecX u(size);
   for (double& x : u) x = random.uniform();
   return u;
 }
 
+// Adds one row: the curves at a, at b, and at a with each parameter replaced by that of b. The row
+// counts only if all of these curves exist.
 void add_row(Sums& sums, const ParametricCurve& phi, const VecX& middle, const VecX& lower,
              const VecX& range, const VecX& u) {
   const auto k = lower.size();
@@ -133,6 +140,8 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
             const SamplingOptions& options) {
   Sobol result;
   const auto k = lower.size();
+  // Sobol' points need 2 k dimensions. Beyond those of the table independent random numbers are
+  // used.
   const bool random_rows =
       options.sequence == Sequence::random || 2 * k > SobolSequence::most_dimensions;
   const int threads = std::max(1, options.threads);
@@ -171,6 +180,7 @@ Sobol sobol(const CurveMaker& maker, const VecX& lower, const VecX& upper, long 
   const Shares best = shares(all, options.groups);
   result.mean = best.mean + middle;
   result.deviation = best.variance.cwiseSqrt();
+  // Intervals by the bootstrap over blocks.
   Resamples first, total, group_first, group_total;
   for (int r = 0; r < options.resamples; ++r) {
     Random random(options.seed, (1ull << 40) + static_cast<std::uint64_t>(r));

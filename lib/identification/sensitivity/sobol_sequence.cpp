@@ -21,6 +21,8 @@ SobolSequence::SobolSequence(Eigen::Index dimensions, Random shift, std::uint32_
 
 SobolSequence::~SobolSequence() = default;
 
+// Each coordinate of the point is combined with the random shift bit by bit. Adding a half keeps it
+// inside the open interval (0, 1).
 VecX SobolSequence::next() {
   if (begun_)
     for (std::uint32_t& x : point_) x = engine_->sequence();

@@ -30,6 +30,7 @@ struct Pattern {
   std::string mistake;
 };
 
+// Splits a pattern into its texts and the names in braces.
 Pattern parse_pattern(const std::string& pattern) {
   Pattern parsed;
   std::set<std::string> seen;
@@ -75,8 +76,10 @@ struct LeadingNumber {
   std::size_t length = 0;
 };
 
+// The number at the beginning of a text; the letter p may stand for the decimal point.
 std::optional<LeadingNumber> leading_number(const std::string& text) {
-  std::size_t end = text.starts_with('-') ? 1 : 0;
+  std::size_t end = 0;
+  if (text.starts_with('-')) end = 1;
   bool point = false;
   std::string plain = text.substr(0, end);
   for (; end < text.size(); ++end) {
@@ -125,6 +128,7 @@ std::string mistake_in_pattern(const std::string& pattern) {
   return parsed.mistake;
 }
 
+// Matches the name of a file with the pattern and returns the sizes that it holds.
 std::map<std::string, double> sizes_in_file_name(const std::string& path,
                                                  const std::string& pattern) {
   // ".5" of a name without an ending belongs to a number

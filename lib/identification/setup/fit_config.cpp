@@ -14,6 +14,8 @@
 
 namespace langer {
 
+// Checks an item of `data`: keys that exclude each other, columns that the kind of test needs, and
+// parts of a history that cannot be left out.
 std::vector<Complaint> FitData::complaints() const {
   std::vector<Complaint> all;
   if (strain_from && strain_to && *strain_from >= *strain_to)
@@ -133,13 +135,13 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
 
 namespace {
 
-// one that is no number of the law
+// A parameter that is not a number of the material: friction, or a quantity of the instrument.
 FreeParameter free_number(const FitConfig& config, const FitParameter& p,
                           const SceneNumber& number) {
   FreeParameter one{p.key, 0, 0, 0, false, "friction", unit::none};
   Range box{0, 2};
-  const FitData* data =
-      number.of == SceneNumber::Of::friction ? nullptr : &config.data[number.data];
+  const FitData* data = nullptr;  // none for friction
+  if (number.of != SceneNumber::Of::friction) data = &config.data[number.data];
   if (!data) {
     one.start = 0.3;
     one.name = "friction_" + number.contact;
@@ -172,6 +174,7 @@ FreeParameter free_number(const FitConfig& config, const FitParameter& p,
 
 }  // namespace
 
+// Bounds and start of each parameter: given ones first, then those of the preset.
 std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   Material law = config.law;
   const std::vector<MaterialParameter> known = parameters(law);
@@ -202,7 +205,7 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
 
 namespace {
 
-// of those whose text is understood
+// The ties whose text is understood.
 std::vector<Tie> written_ties(const FitConfig& config) {
   std::vector<Tie> all;
   for (const FitTie& written : config.ties)
@@ -210,6 +213,7 @@ std::vector<Tie> written_ties(const FitConfig& config) {
   return all;
 }
 
+// A key that the material does not have, with the closest one.
 Complaint unknown(const std::string& at, const std::string& key,
                   const std::vector<MaterialParameter>& known) {
   std::vector<std::string> keys;
@@ -222,7 +226,8 @@ Complaint unknown(const std::string& at, const std::string& key,
   return {at, "the material has no number \"" + key + "\"", "one of " + list, did_you_mean(near)};
 }
 
-// what is wrong with one tie whose text was understood; `whole` follows chains to their ends
+// Checks one tie whose text is understood. `whole` is the same tie followed to the end of its
+// chain.
 void complain(const std::string& at, const Tie& tie, const Tie& whole, const FitConfig& config,
               const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
   const auto number = [&](const std::string& key) {
@@ -269,6 +274,7 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
            "other bounds of " + whole.of + ", or another factor"});
 }
 
+// Viscous materials need times and incompressible tests.
 void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.dilatation == Dilatation::compressible)
     all.push_back({"dilatation", "compressible, and a viscous material", "incompressible", ""});
@@ -280,7 +286,7 @@ void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
                      "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
 }
 
-// what does not go with whole scenes
+// Options that a fit with scenes does not have.
 void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.cross_check != SecondAnswer::none)
     all.push_back(
@@ -305,6 +311,7 @@ void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all)
   }
 }
 
+// Checks all ties: text, duplicates, circles, then each one alone.
 void complain_about_ties(const FitConfig& config, const std::vector<MaterialParameter>& known,
                          std::vector<Complaint>& all) {
   const std::vector<Tie> written = written_ties(config);
@@ -343,6 +350,8 @@ std::vector<Tie> ties_of(const FitConfig& config) {
   return std::vector<Tie>();
 }
 
+// Checks the parameters: known keys, bounds within the range of the model, a start within the
+// bounds.
 std::vector<Complaint> FitConfig::complaints() const {
   std::vector<Complaint> all;
   if (data.empty()) all.push_back({"data", "an empty list", "one test at least", ""});
@@ -387,8 +396,12 @@ std::vector<Complaint> FitConfig::complaints() const {
     const double upper = free[i].upper;
     const bool from_zero = number && (number->of == SceneNumber::Of::friction ||
                                       number->of == SceneNumber::Of::compliance);
-    const Range range = number ? (from_zero ? at_least(0) : Range{})
-                               : known[static_cast<std::size_t>(found - keys.begin())].range;
+    Range range;
+    if (!number) {
+      range = known[static_cast<std::size_t>(found - keys.begin())].range;
+    } else if (from_zero) {
+      range = at_least(0);
+    }
     if (!(lower < upper)) {
       all.push_back({at + (p.upper ? "upper" : "key"), "found " + number_text(upper),
                      "more than lower, " + number_text(lower), ""});
@@ -416,12 +429,13 @@ std::vector<Complaint> FitConfig::complaints() const {
 
 namespace {
 
-// of the tests that stretch, over what is strained by a tenth of the most at least [MPa]
+// The greatest secant modulus of the tests, over points of at least a tenth of the largest strain
+// [MPa].
 double greatest_secant(const std::vector<Test>& tests) {
   double greatest = 0;
   for (const Test& test : tests) {
     const auto strain = [&](std::size_t i) {
-      return std::abs(test.kind == TestKind::simple_shear ? test.first[i] : test.first[i] - 1);
+      return std::abs(strain_of(test.kind, test.first[i]));
     };
     double most = 0;
     for (std::size_t i = 0; i < test.points(); ++i) most = std::max(most, strain(i));
@@ -434,6 +448,7 @@ double greatest_secant(const std::vector<Test>& tests) {
 
 }  // namespace
 
+// The numerical problem of a config. Upper bounds of moduli grow for stiff tests.
 FitProblem fit_problem(const FitConfig& config) {
   FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation,
                      ties_of(config)};

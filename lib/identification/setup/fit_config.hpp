@@ -189,7 +189,7 @@ struct FitData {
       "number of cycles at the beginning that are left out, or are history, such as preconditioning",
       at_least(0));
   }
-  // which points count, how much and from where
+  // Keys about which points count, with which weight.
   static void counted_fields(auto& v) {
     v(&FitData::weight, "weight", unit::none,
       "of the residuals relative to those of other tests; 1 by default", positive);
@@ -310,7 +310,10 @@ struct FitConfig {
   double noise() const {
     return study.value_or(StudyConfig{}).noise;
   }  // part of the largest value of a test
-  int searches() const { return starts.value_or(has_scenes() ? 1 : 20); }
+  int searches() const {
+    if (has_scenes()) return starts.value_or(1);
+    return starts.value_or(20);
+  }
   std::vector<Complaint> complaints() const;
   static void complete(Tree& tree);  // what the measured files say of themselves
 };
@@ -323,13 +326,17 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
 // (complaints() names it)
 std::vector<FreeParameter> free_parameters(const FitConfig& config);
 
-// of a key that names no number of the law but one of a scene; nothing where it names none
+// The number of a scene that a key names; nothing for keys of the material.
 struct SceneNumber {
   enum class Of { friction, touch_offset, force_offset, compliance } of = Of::friction;
   std::string contact;   // of friction
   std::size_t data = 0;  // of the others
 };
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key);
+inline std::optional<SceneNumber> scene_number(const FitConfig& config, const FreeParameter& p) {
+  if (p.is_material_number()) return std::nullopt;
+  return scene_number(config, p.key);
+}
 
 // the ties of the law, resolved; those that complaints() names are left out
 std::vector<Tie> ties_of(const FitConfig& config);

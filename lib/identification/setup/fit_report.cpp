@@ -17,7 +17,7 @@ namespace langer {
 
 namespace {
 
-// of 95 %, by Student's factor for the noise that the residuals show (fit/residual_noise.hpp)
+// 95 % intervals by Student's factor for the noise that the residuals show (fit/residual_noise.hpp)
 void set_intervals(const FitResult& fit, FitRecord& record) {
   const VecX factors = interval_factors(fit.columns, fit.left_out, fit.noise);
   const MatX white =
@@ -48,7 +48,7 @@ void set_nonlinear(const FitProblem& problem, const FitResult& fit, FitRecord& r
   }
 }
 
-// what the noise of the tests is like, and what other kinds of it would make of them
+// The noise model of the tests, and the AICc of the other kinds.
 NoiseRecord noise_record(const FitProblem& problem, const FitResult& fit) {
   const auto word = [](NoiseKind kind) {
     return std::string(names(kind)[static_cast<std::size_t>(kind)]);
@@ -84,6 +84,7 @@ void set_bounded(const WithinBounds& bounded, FitRecord& record) {
 
 }  // namespace
 
+// Collects parameters, intervals, quality and curves of a fit.
 FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   FitRecord record;
   Material material = fit.material;
@@ -146,12 +147,7 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   double high = -low;
   for (const Test& test : problem.tests)
     for (double x : test.first) {
-      double strain = 0;
-      if (test.kind == TestKind::simple_shear) {
-        strain = x;
-      } else {
-        strain = x - 1;
-      }
+      const double strain = strain_of(test.kind, x);
       low = std::min(low, strain);
       high = std::max(high, strain);
     }
@@ -165,13 +161,14 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   return record;
 }
 
+// The table of all tests as the header describes it.
 std::string fit_csv(const FitRecord& record) {
   const auto error = [](double model, double stress, const FittedTest& t) {
     double largest = 0;
     for (const auto* list : {&t.stress_x, &t.stress_z})
       for (double s : *list) largest = std::max(largest, std::abs(s));
-    return largest > 0 ? 100 * (model - stress) / largest
-                       : std::numeric_limits<double>::quiet_NaN();
+    if (!(largest > 0)) return std::numeric_limits<double>::quiet_NaN();
+    return 100 * (model - stress) / largest;
   };
   if (record.tests.empty()) return "";
   const FittedTest& only = record.tests.front();
@@ -189,16 +186,26 @@ std::string fit_csv(const FitRecord& record) {
   for (std::size_t t = 0; t < record.tests.size(); ++t) {
     const FittedTest& test = record.tests[t];
     for (std::size_t i = 0; i < test.first.size(); ++i) {
-      const bool z = !test.stress_z.empty();
+      double second = none;
+      double stress_z = none;
+      double model_z = none;
+      double error_z = none;
+      if (!test.second.empty()) second = test.second[i];
+      if (!test.stress_z.empty()) {
+        stress_z = test.stress_z[i];
+        model_z = test.model_z[i];
+        error_z = error(model_z, stress_z, test);
+      }
+      const double error_x = error(test.model_x[i], test.stress_x[i], test);
       const double row[] = {static_cast<double>(t + 1),
                             test.first[i],
-                            test.second.empty() ? none : test.second[i],
+                            second,
                             test.stress_x[i],
-                            z ? test.stress_z[i] : none,
+                            stress_z,
                             test.model_x[i],
-                            z ? test.model_z[i] : none,
-                            error(test.model_x[i], test.stress_x[i], test),
-                            z ? error(test.model_z[i], test.stress_z[i], test) : none};
+                            model_z,
+                            error_x,
+                            error_z};
       for (int k = 0; k < 9; ++k) c[k].push_back(row[k]);
     }
   }
@@ -237,6 +244,7 @@ std::string in_words(const FittedCurve& c) {
 
 namespace {
 
+// The number of measured values.
 std::size_t values_of(const FitRecord& record) {
   std::size_t values = 0;
   for (const FittedTest& t : record.tests) values += t.stress_x.size() + t.stress_z.size();
@@ -265,6 +273,7 @@ std::string in_words(const NoiseRecord& noise) {
 
 }  // namespace
 
+// Lines about parameters, tests and the quality of the fit.
 std::vector<std::string> fit_results(const FitRecord& record) {
   std::vector<std::string> lines;
   const bool held = std::any_of(record.parameters.begin(), record.parameters.end(), at_symmetry);
@@ -325,6 +334,7 @@ std::vector<std::string> fit_results(const FitRecord& record) {
   return lines;
 }
 
+// Warnings about the material: instability, negative moduli, correlated parameters and residuals.
 std::vector<std::string> fit_warnings(const FitRecord& record, const Material& material) {
   std::vector<std::string> lines;
   if (record.at_rest) lines.push_back(in_words(*record.at_rest));

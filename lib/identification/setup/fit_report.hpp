@@ -1,4 +1,4 @@
-// What is kept and what is said of a fit.
+// The record of a fit, and its report in words and tables.
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 
 namespace langer {
 
+// Checks keys that describe how a file was written.
 void FitData::complain_of_laboratory_keys(std::vector<Complaint>& all) const {
   const auto complain = [&](std::string key, std::string found, std::string expected,
                             std::string hint = "") {

@@ -122,6 +122,8 @@ TestFormat test_format(const FitData& data, const Material& law) {
 
 }  // namespace
 
+// Reads all files that are no scenes. Next to scenes a test needs a standard deviation: by default
+// it is the noise of the study. Equal names get a number.
 std::vector<Test> measured_tests(const FitConfig& config) {
   std::vector<Test> tests;
   const auto is_taken = [&](const std::string& name) {

@@ -7,7 +7,7 @@
 
 namespace langer {
 
-// what a scene needs to be set against its file
+// Checks whether a scene has what it needs to be compared with its file.
 void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
   for (const auto& [key, found] : {std::pair("strain", strain.has_value()),
                                    {"stress", stress.has_value()},
@@ -45,6 +45,8 @@ void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
                      "a scene does not read it"});
 }
 
+// Checks an item of kind: scene: one abscissa, forces or displacements, and where these were
+// measured.
 void FitData::complain_of_scene(std::vector<Complaint>& all) const {
   if (solve.path.empty())
     all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
@@ -111,6 +113,7 @@ bool FitConfig::has_scenes() const {
   return std::any_of(data.begin(), data.end(), [](const FitData& d) { return d.is_scene(); });
 }
 
+// Reads keys such as contacts.ball.friction and data[0].touch_offset.
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key) {
   if (!config.has_scenes()) return std::nullopt;
   const std::string contact = "contacts.";
@@ -128,6 +131,8 @@ std::optional<SceneNumber> scene_number(const FitConfig& config, const std::stri
   return std::nullopt;
 }
 
+// Checks a candidate of the study: keys of scenes only with kind: scene, and a place for what is
+// measured.
 std::vector<Complaint> CandidateChoice::complaints() const {
   std::vector<Complaint> all;
   if (kind != DataKind::scene) {

@@ -21,6 +21,7 @@ namespace {
                 Error{place, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
+// A line `# ---` opens and closes the description in the header of a CSV file.
 bool is_fence(const std::string& line) {
   const std::size_t first = line.find_first_not_of("# \t");
   return line.starts_with('#') && first != std::string::npos &&
@@ -49,6 +50,7 @@ bool is_sidecar(const Tree& tree) {
 
 }  // namespace
 
+// The YAML description in the header of a CSV file; nothing if there is none.
 Tree csv_header(const std::string& text, const std::string& shown_name) {
   // every other line is left empty and the # becomes a blank: lines and columns stay those of the
   // file
@@ -66,12 +68,13 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
     if (is_fence(line)) {
       closed = open;
       open = true;
-      opened_at = closed ? opened_at : number;
+      if (!closed) opened_at = number;
       yaml += "\n";
     } else if (open && !comment) {
       break;
     } else {
-      yaml += (open ? " " + line.substr(1) : "") + "\n";
+      if (open) yaml += " " + line.substr(1);
+      yaml += "\n";
     }
   }
   if (!open) return {};
@@ -85,6 +88,7 @@ Tree csv_header(const std::string& text, const std::string& shown_name) {
   return tree;
 }
 
+// Adds the keys that a measured file, or the YAML file of its name, gives. Keys of the config win.
 void add_keys_of_measured_file(Tree& item) {
   const Tree* file = item.find("file");
   if (!file || file->kind != Tree::Kind::scalar || file->scalar.empty()) return;
@@ -94,7 +98,7 @@ void add_keys_of_measured_file(Tree& item) {
   if (text.empty()) return;
   Tree said = csv_header(text, path.string());
   const fs::path beside = fs::path(path).replace_extension(".yaml");
-  Tree other = Tree{};
+  Tree other;
   if (beside != path && fs::is_regular_file(beside) && !is_this(beside, file->place)) {
     other = load_yaml(beside.string());
   }

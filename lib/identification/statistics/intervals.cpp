@@ -13,7 +13,7 @@ namespace {
 constexpr double limit = 3.841458820694124;  // of chi-square, 95 %
 constexpr double tolerance = 0.1;            // of an interval's half width
 
-// whether data show noise at all: an exact fit has intervals of the size of its rounding
+// Whether the data show noise at all. An exact fit has intervals of the size of its rounding
 bool has_noise(const FitProblem& problem, const FitResult& fit) {
   const VecX measured = weights(problem.tests).cwiseProduct(measured_stress(problem.tests));
   return fit.noise.total() > 0 && fit.residual.norm() > 1e-4 * measured.norm();
@@ -50,6 +50,8 @@ class EndCheck {
 
 }  // namespace
 
+// Keeps an interval of first order if the likelihood at both ends confirms it, else takes the
+// profile.
 std::vector<Interval> intervals_95(const FitProblem& problem, const FitResult& fit,
                                    std::vector<Interval> first) {
   const LeastSquares q = likelihood_problem(problem, fit);

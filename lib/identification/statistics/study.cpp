@@ -37,7 +37,7 @@ Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, do
   t.weight = largest.weight;
   for (std::size_t i = 1; i <= largest.points(); ++i) {
     const double x = reach * static_cast<double>(i) / static_cast<double>(largest.points());
-    t.first.push_back(kind_of(choice) == TestKind::simple_shear ? x : 1 + x);
+    t.first.push_back(deformation_at(t.kind, x));
     if (kind_of(choice) == TestKind::biaxial) t.second.push_back(1 + x);
     t.stress_x.push_back(0);
     if (kind_of(choice) == TestKind::equibiaxial || kind_of(choice) == TestKind::biaxial)
@@ -52,8 +52,8 @@ double largest_cauchy(const Material& material, Test test) {
   const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
   double largest = 0;
   for (std::size_t i = 0; i < test.points(); ++i) {
-    const PlaneState s = plane_state(material, a, test.kind, test.first[i],
-                                     test.second.empty() ? 1 : test.second[i], test.shear);
+    const PlaneState s =
+        plane_state(material, a, test.kind, test.first[i], test.second_at(i), test.shear);
     if (!s.converged) break;
     largest = std::max(largest, s.sigma.cwiseAbs().maxCoeff());
   }
@@ -66,20 +66,15 @@ double reach_of(const CandidateChoice& choice, const Material& material,
                 const std::vector<Test>& tests) {
   double reach = 0, borne = 0;
   for (const Test& one : tests) {
-    for (double x : one.first)
-      reach = std::max(reach, one.kind == TestKind::simple_shear ? x : x - 1);
+    for (double x : one.first) reach = std::max(reach, strain_of(one.kind, x));
     borne = std::max(borne, largest_cauchy(material, one));
   }
   const auto stress_at = [&](double amount) {
     const std::vector<Vec3> a = specimen_fibres(material, choice.fibre_angle);
-    double first = 0;
-    if (kind_of(choice) == TestKind::simple_shear) {
-      first = amount;
-    } else {
-      first = 1 + amount;
-    }
+    const double first = deformation_at(kind_of(choice), amount);
     const PlaneState s = plane_state(material, a, kind_of(choice), first, first);
-    return s.converged ? s.sigma.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
+    if (!s.converged) return std::numeric_limits<double>::infinity();
+    return s.sigma.cwiseAbs().maxCoeff();
   };
   // the first crossing: stress need not rise throughout
   constexpr int steps = 60;
@@ -89,7 +84,11 @@ double reach_of(const CandidateChoice& choice, const Material& material,
     if (!std::isgreater(stress_at(high), borne * (1 + 1e-9))) continue;
     for (int k = 0; k < 30; ++k) {
       const double middle = 0.5 * (low + high);
-      (std::isgreater(stress_at(middle), borne) ? high : low) = middle;
+      if (std::isgreater(stress_at(middle), borne)) {
+        high = middle;
+      } else {
+        low = middle;
+      }
     }
     return low;
   }
@@ -119,12 +118,13 @@ ResidualNoise noise_at_least(const FitResult& fit, double least) {
   return with_least(fit.noise, fit.noise.total() * std::max(1., least / shown));
 }
 
-// Correlated residuals tell less than as many independent ones. Old tests and new ones alike count
-// with the white noise that would leave the worst known parameter the error that it has.
+// Ranks the candidates for the next test. Correlated residuals carry less information than as many
+// independent ones: old and new tests count with the white noise under which the least known
+// parameter has the error that it has.
 std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& fit,
                                     const StudyConfig& config, const Identifiability& s,
                                     const std::vector<Candidate>& scenes) {
-  // what rests on a bound is not known to be there
+  // A parameter on a bound is not known to be there: it counts as free.
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
     if (!fit.symmetric[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -159,10 +159,11 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     // residuals of a likelihood have a size of their own in each set of tests
     const double units = standardizer(more, fit.noise_model).normalisation(same_noise.residual) /
                          standardizer(problem, fit.noise_model).normalisation(fit.residual);
-    const bool shear = kind_of(choice) == TestKind::simple_shear;
+    std::string quantity = "stretch";
+    if (kind_of(choice) == TestKind::simple_shear) quantity = "shear";
     candidates.push_back(
         {fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)),
-                     choice.fibre_angle, shear ? "shear" : "stretch", shear ? reach : 1 + reach),
+                     choice.fibre_angle, quantity, deformation_at(kind_of(choice), reach)),
          J_all(Eigen::all, free), noise * units});
   }
   std::vector<AdviceRecord> records;
@@ -180,11 +181,14 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
 // the problem with the model that its derivatives make at the optimum: fits to it cost nothing
 LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
   LeastSquares line = q;
-  line.residual = [r0 = best.r, J0 = best.J, p0 = best.p](const VecX& p, VecX& r) {
+  const VecX r0 = best.r;
+  const VecX p0 = best.p;
+  const MatX J0 = best.J;
+  line.residual = [r0, J0, p0](const VecX& p, VecX& r) {
     r = r0 + J0 * (p - p0);
     return true;
   };
-  line.slope = [J0 = best.J](const VecX&, MatX& J) {
+  line.slope = [J0](const VecX&, MatX& J) {
     J = J0;
     return true;
   };
@@ -192,19 +196,22 @@ LeastSquares linearised(const LeastSquares& q, const LeastSquaresResult& best) {
   return line;
 }
 
+// Errors, correlations, profiles, bootstrap and advice of a fit, as a record.
 IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
                                const StudyConfig& config, const ProgressOf& progress,
                                const std::vector<Candidate>& scenes) {
   const LeastSquares q = likelihood_problem(problem, fit);
   const auto say = [&](const char* what) {
-    return progress ? progress(what) : std::function<void(double)>();
+    std::function<void(double)> report;
+    if (progress) report = progress(what);
+    return report;
   };
   const VecX& p = fit.best.p;
   const auto n = p.size();
   double largest = 0;
   for (const Test& t : problem.tests) largest = std::max(largest, t.weight * largest_stress(t));
-  const ResidualNoise noise =
-      problem.further ? fit.noise : noise_at_least(fit, config.noise * largest);
+  ResidualNoise noise = fit.noise;
+  if (!problem.further) noise = noise_at_least(fit, config.noise * largest);
   const Identifiability s = identifiability(fit.best.J, p, sizes_of(q, p), fit.left_out, noise);
   const VecX factors = interval_factors(fit.columns, fit.left_out, noise);
   IdentifiabilityRecord record;
@@ -246,7 +253,8 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
     options.progress = say("bootstrap");
     if (noise.rho > 0) options.spread = growth / options.growth;
     const auto maker = [&] {
-      return problem.further ? linearised(q, fit.best) : likelihood_problem(problem, fit);
+      if (problem.further) return linearised(q, fit.best);
+      return likelihood_problem(problem, fit);
     };
     const Bootstrap b = bootstrap(maker, p, noise, options);
     record.linearised = problem.further != nullptr;
@@ -258,11 +266,13 @@ IdentifiabilityRecord identify(const FitProblem& problem, const FitResult& fit,
   return record;
 }
 
+// In words: the amount up to which a path is stable.
 std::string up_to(const PathStability& p, double end) {
   const double loss = std::min(p.slope_loss, p.ellipticity_loss);
   const bool shear = p.path == Path::simple_shear;
   const auto text = [&](double x) {
-    return shear ? fmt::format("shear {:.3f}", x) : fmt::format("stretch {:.3f}", 1 + x);
+    if (shear) return fmt::format("shear {:.3f}", x);
+    return fmt::format("stretch {:.3f}", 1 + x);
   };
   if (std::isinf(loss) && std::isfinite(p.end))
     return "stable up to " + text(std::floor(1000 * p.end) / 1000) +
@@ -280,6 +290,15 @@ std::string up_to(const PathStability& p, double end) {
   return s;
 }
 
+// The loading path of a kind of test; biaxial tests are followed on the equibiaxial path.
+Path path_of(TestKind kind) {
+  if (kind == TestKind::simple_shear) return Path::simple_shear;
+  if (kind == TestKind::pure_shear) return Path::pure_shear;
+  if (kind == TestKind::uniaxial) return Path::uniaxial;
+  return Path::equibiaxial;
+}
+
+// The map of strong ellipticity, and how far the first test itself is stable.
 StabilityRecord stability_of(const Material& material, const FitProblem& problem,
                              const StudyConfig& config, const ProgressOf& progress) {
   StabilityRecord record;
@@ -290,24 +309,16 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
   options.threads = config.threads;
   if (progress) options.progress = progress("stability map");
   record.map = stability_map(material, options);
-  const Test first = problem.tests.empty() ? Test{} : problem.tests.front();
+  Test first;
+  if (!problem.tests.empty()) first = problem.tests.front();
   double own = 0;
-  if (material.fibres.empty()) {
-    own = 0;
-  } else {
-    own = material.fibres[0].alpha_deg;
-  }
-  const Path path = first.kind == TestKind::simple_shear ? Path::simple_shear
-                    : first.kind == TestKind::pure_shear ? Path::pure_shear
-                    : first.kind == TestKind::uniaxial   ? Path::uniaxial
-                                                         : Path::equibiaxial;
+  if (!material.fibres.empty()) own = material.fibres[0].alpha_deg;
+  const Path path = path_of(first.kind);
   std::vector<double> fine;
   for (int i = 0; i <= 200; ++i) fine.push_back(config.stability_to * i / 200);
   const PathStability along = path_stability(turned(material, first.fibre_angle_deg), path, fine);
   std::string reach;
-  if (first.first.empty()) {
-    reach = "";
-  } else {
+  if (!first.first.empty()) {
     reach = fmt::format("; data reach {:.2f}",
                         *std::max_element(first.first.begin(), first.first.end()));
   }
@@ -327,6 +338,7 @@ StabilityRecord stability_of(const Material& material, const FitProblem& problem
 
 }  // namespace
 
+// Short names of the free parameters.
 std::vector<std::string> parameter_names(const FitProblem& problem) {
   Material law = problem.law;
   std::vector<std::string> result;
@@ -338,13 +350,13 @@ std::vector<std::string> parameter_names(const FitProblem& problem) {
   return result;
 }
 
+// The range of invariants that the tests cover.
 FittedRange fitted_range(const Material& material, const std::vector<Test>& tests) {
   FittedRange range{3, std::vector<double>(material.fibres.size(), 1)};
   for (const Test& t : tests) {
     const std::vector<Vec3> a = specimen_fibres(material, t.fibre_angle_deg);
     for (std::size_t i = 0; i < t.points(); ++i) {
-      const PlaneState s =
-          plane_state(material, a, t.kind, t.first[i], t.second.empty() ? 1 : t.second[i], t.shear);
+      const PlaneState s = plane_state(material, a, t.kind, t.first[i], t.second_at(i), t.shear);
       if (!s.converged) continue;
       range.I1_bar = std::max(range.I1_bar, s.F.squaredNorm());
       for (std::size_t k = 0; k < a.size(); ++k)
@@ -363,6 +375,7 @@ StudyRecord study(const FitProblem& problem, const FitResult& fit, const StudyCo
   return record;
 }
 
+// The study in words, for the terminal.
 std::vector<std::string> study_lines(const StudyRecord& study) {
   std::vector<std::string> lines;
   if (study.identifiability) {
@@ -389,9 +402,13 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
       }
       if (!r.profiles.empty()) {
         const ProfileRecord& p = r.profiles[i];
-        s += fmt::format(
-            ", {}profile {}{:.4g} to {:.4g}{}", held && !r.symmetric[i] ? "as it turns: " : "",
-            p.low_open ? "[bound] " : "", p.low, p.high, p.high_open ? " [bound]" : "");
+        // an interval that ends at a bound of the search is marked there
+        s += ", ";
+        if (held && !r.symmetric[i]) s += "as it turns: ";
+        s += "profile ";
+        if (p.low_open) s += "[bound] ";
+        s += fmt::format("{:.4g} to {:.4g}", p.low, p.high);
+        if (p.high_open) s += " [bound]";
       }
       if (r.bootstrap.rows() > 1)
         s += fmt::format(", {}bootstrap {:.4g} to {:.4g}", r.linearised ? "linearised " : "",
@@ -426,6 +443,7 @@ std::vector<std::string> study_lines(const StudyRecord& study) {
   return lines;
 }
 
+// The study as CSV files.
 std::vector<TextFile> study_tables(const StudyRecord& study) {
   std::vector<TextFile> files;
   if (study.identifiability) {

@@ -1,4 +1,4 @@
-// A fit looked at closely: what its data tell, which test would tell more, where the law is stable;
+// The study of a fit: identifiability, the best next test, where the material is stable;
 // as records, words and tables.
 #pragma once
 

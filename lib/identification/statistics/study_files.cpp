@@ -18,6 +18,7 @@ namespace langer {
 
 namespace {
 
+// Pictures that could not be drawn, with the reason.
 std::vector<std::string> lines_of(const Pictures& pictures) {
   std::vector<std::string> lines;
   for (const auto& [reason, figures] : pictures.failed())
@@ -28,6 +29,7 @@ std::vector<std::string> lines_of(const Pictures& pictures) {
 // chi-square with one degree of freedom: 3.84 holds 95 %
 constexpr double threshold = 3.84;
 
+// Correlations and profiles.
 void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
   HeatMap map;
   map.title = "correlation of the parameters";
@@ -48,6 +50,7 @@ void draw_identifiability(Pictures& pictures, const IdentifiabilityRecord& r) {
   pictures.draw("profiles", plot);
 }
 
+// The map of the minimum acoustic eigenvalue.
 void draw_stability(Pictures& pictures, const StabilityMap& m) {
   HeatMap plane;
   plane.title = "minimum acoustic eigenvalue; red: strong ellipticity lost";
@@ -106,6 +109,7 @@ std::vector<std::string> write_study_files(const StudyRecord& study, const Study
   return lines_of(pictures);
 }
 
+// Measured and computed stresses of each test.
 std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style,
                                   const std::string& folder) {
   Pictures pictures(folder, style);
@@ -126,7 +130,7 @@ std::vector<std::string> draw_fit(const std::string& measured_column, const Figu
 
 namespace {
 
-// of a field at the end of what it was measured over: measured, found and their difference at their
+// Maps of a field at the last value of its abscissa: measured, found and their difference at their
 // places
 void draw_field(Pictures& pictures, const FittedCurve& curve) {
   const double end = *std::max_element(
@@ -159,6 +163,7 @@ void draw_field(Pictures& pictures, const FittedCurve& curve) {
 
 }  // namespace
 
+// Measured and computed curves of scenes.
 std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves,
                                      const FigureStyle& style, const std::string& folder) {
   Pictures pictures(folder, style);
@@ -189,6 +194,7 @@ std::vector<std::string> draw_curves(const std::vector<FittedCurve>& curves,
   return lines_of(pictures);
 }
 
+// Effects and indices over the strain.
 std::vector<std::string> draw_sensitivity(const SensitivityRecord& r, const FigureStyle& style,
                                           const std::string& folder) {
   Pictures pictures(folder, style);

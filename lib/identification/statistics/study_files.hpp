@@ -16,7 +16,7 @@ namespace langer {
 // Both return a line for every figure that could not be drawn.
 std::vector<std::string> write_study_files(const StudyRecord& study, const StudyConfig& config,
                                            const FigureStyle& style, const std::string& folder);
-// of fit.csv of one uniaxial test: figs 4 and 5 of [A23]
+// Figures of one uniaxial test, from fit.csv: figs 4 and 5 of [A23].
 std::vector<std::string> draw_fit(const std::string& measured_column, const FigureStyle& style,
                                   const std::string& folder);
 // of fit_<name>.csv of each curve and field that was measured in scenes: measured and found over

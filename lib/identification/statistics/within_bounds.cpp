@@ -40,9 +40,12 @@ struct Reduced {
   double square(const VecX& z) const { return (A * z - b).squaredNorm(); }
 };
 
+// The end of an interval on one side: where the linearised chi-square, with the other parameters
+// following inside their bounds, has risen by half^2. Bracketing, then bisection.
 double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eigen::Index of,
               double half, int side) {
-  const double bound = side < 0 ? lower[of] : upper[of], least = reduced.b.squaredNorm();
+  const double bound = side < 0 ? lower[of] : upper[of];
+  const double least = reduced.b.squaredNorm();
   const auto rise = [&](double x) {
     VecX low = lower;
     VecX high = upper;
@@ -62,12 +65,17 @@ double end_of(const Reduced& reduced, const VecX& lower, const VecX& upper, Eige
   }
   for (int k = 0; k < 60 && std::abs(out - in) > 1e-9 * std::abs(out); ++k) {
     const double middle = 0.5 * (in + out);
-    (rise(middle) <= half * half ? in : out) = middle;
+    if (rise(middle) <= half * half) {
+      in = middle;
+    } else {
+      out = middle;
+    }
   }
   return in;
 }
 
-// q ~ N(0, covariance), put into the box
+// Second moments of the estimate by sampling: q ~ N(0, covariance), put into the box by the linear
+// least squares problem.
 MatX moments_of(const Reduced& reduced, const VecX& lower, const VecX& upper,
                 const MatX& covariance) {
   const Eigen::Index n = lower.size();
@@ -92,6 +100,7 @@ std::array<double, 2> box_profile(const MatX& J, const VecX& r, const VecX& lowe
   return {end_of(reduced, lower, upper, of, half, -1), end_of(reduced, lower, upper, of, half, 1)};
 }
 
+// Intervals and moments if an estimate rests on a bound; nothing otherwise.
 std::optional<WithinBounds> within_bounds(const FitProblem& problem, const FitResult& fit) {
   const LeastSquaresResult& best = fit.best;
   const auto n = best.p.size();
@@ -113,20 +122,18 @@ std::optional<WithinBounds> within_bounds(const FitProblem& problem, const FitRe
     const bool turns = q.period_of(i) > 0;
     if (turns) {
       lower[j] = -0.5 * q.period_of(i);
-    } else {
-      lower[j] = q.lower[i] - best.p[i];
-    }
-    if (turns) {
       upper[j] = 0.5 * q.period_of(i);
     } else {
+      lower[j] = q.lower[i] - best.p[i];
       upper[j] = q.upper[i] - best.p[i];
     }
   }
   const Reduced reduced(J, best.r);
   const VecX half = normal_95 * fit.noise.total() * interval_factors(J, none, fit.noise);
   WithinBounds out;
-  out.low.assign(static_cast<std::size_t>(n), nan), out.high = out.low,
-                                                    out.moments = MatX::Constant(n, n, nan);
+  out.low.assign(static_cast<std::size_t>(n), nan);
+  out.high = out.low;
+  out.moments = MatX::Constant(n, n, nan);
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     const Eigen::Index i = in[static_cast<std::size_t>(j)];
     out.low[static_cast<std::size_t>(i)] =
