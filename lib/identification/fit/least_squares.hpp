@@ -1,5 +1,5 @@
 // Nonlinear least squares in a box:  min 1/2 |r(p)|^2,  lower <= p <= upper.  Levenberg-Marquardt
-// [M63]; each step is the exact answer of the damped linear problem in the box, so that an active
+// [M63]; each step is the exact solution of the damped linear problem in the box, so that an active
 // bound never stops it early.
 //   residual   fills r (m); false where p has no model: such a step is shortened
 //   typical    sizes of the parameters, for the difference quotients of the Jacobian (taken inside the box)

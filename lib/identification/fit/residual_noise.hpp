@@ -1,11 +1,14 @@
-// Noise that the residuals of a fit show. Along a measured curve neighbours are alike, since a law
-// misses a curve smoothly and load cells drift: within a curve e_i = rho e_(i-1) + u_i
+// Noise that the residuals of a fit show, and what it means for the errors of parameters.
+//
+// Neighbouring residuals of a measured curve are similar, because a material model misses a curve
+// smoothly and load cells drift. A thousand points are then not a thousand measurements. Within a
+// curve e_i = rho e_(i-1) + u_i
 // (autoregression of first order), curves are independent of each other,
 //   covariance of the residuals  V = deviation^2 R + white^2 I,   R_ij = rho^|i-j| within a curve, 0 between curves
 // rho and deviation are those of largest restricted likelihood (REML [PT71]), which counts what the
 // parameters took from the residuals; rho is 0 where it does not raise that likelihood
 // significantly (5 %, one-sided), and where residuals are below 1e-4 of the data, which no load
-// cell resolves. Least squares stays as it is; what is known of its answer is the sandwich (J^T
+// cell resolves. Least squares stays as it is; the covariance of its solution is the sandwich (J^T
 // J)^-1 J^T V J (J^T J)^-1.
 //
 // A fit whose noise model is autoregressive (noise_model.hpp) has residuals u from which a

@@ -1,7 +1,8 @@
-// A law's shear modulus at rest, where the tests hardly feel it. docs/identification.md Tests of J
-// shape often put it at 0, or so near that noise decides. A body of such a law cannot be solved:
-// its tangent at rest is singular. Moduli that the tests cannot tell from 0 describe them as well,
-// so one of them is taken:
+// The shear modulus at rest if the tests hardly determine it (docs/identification.md).
+//
+// Fits to J-shaped curves often put it at 0, or so close that noise decides. A body of such a
+// material cannot be solved: its tangent at rest is singular. Moduli that the tests cannot
+// distinguish from 0 describe them equally well, so the smallest distinguishable one is used:
 //   least  = noise / |s|,  s_i = w_i (stress of a neo-Hookean matrix of mu = 1 MPa at point i)
 // the standard error that mu would have if the tests were to find nothing else. All values together
 // move by one standard deviation of the noise: chi-square rises by 1, by less where other

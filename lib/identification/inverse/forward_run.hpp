@@ -1,5 +1,9 @@
-// A solve config as a function of its material and friction: what is observed of it along its path,
-// in process and without files.
+// A solve config as a function of its material and friction.
+//
+// solve() runs the scene in this process, without files, and returns what is observed along the
+// path and its derivatives. Checks and estimates of the config are switched off: a fit makes many
+// runs and needs the path alone. Increments end at the measured values, so that little has to be
+// interpolated.
 #pragma once
 
 #include <map>

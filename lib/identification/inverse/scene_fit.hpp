@@ -1,7 +1,15 @@
-// The scenes among the tests of a fit (fit/fit.hpp): their runs, made side by side and each once,
-// and what they say at a set of parameters. The derivative by a number of the law or by friction is
-// that of the runs; that by touch offset, force offset and compliance follows from where on its
-// path a value is read:   s = s_read - touch_offset - compliance (F_read - force_offset)
+// Inverse identification: parameters of a material from measured curves of a whole experiment, such
+// as an indentation, that only a finite element run can predict.
+//
+// A scene is a solve config together with a measured file. At a set of parameters each scene is
+// solved once (runs are cached and made in parallel), and the curve that the instrument would have
+// recorded is read off the run:
+//   values    F(s) + force_offset,  s = s_read - touch_offset - compliance (F_read - force_offset)
+//   Jacobian  by material numbers and friction: the run differentiates itself (sensitivity.hpp);
+//             by offsets and compliance: the chain rule with the slope dF/ds of the computed curve
+// Weighted residuals go to the least squares of the fit (fit/fit.hpp) next to those of homogeneous
+// tests. A trial set of parameters without equilibrium has no model there: the search shortens its
+// step.
 #pragma once
 
 #include <functional>

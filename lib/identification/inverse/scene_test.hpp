@@ -1,5 +1,9 @@
-// A measured file against the scene that it was measured in: which observation of which state each
-// value is.
+// A measured file and the scene that it was measured in: to which observation of which state each
+// value belongs.
+//
+// Files have no path parameter t. They give values over an abscissa s, such as the travel of the
+// indenter, which the config of the scene imposes as a function of t. Each row is therefore
+// assigned a piece of the path on which s is monotonic, and its t follows by linear interpolation.
 //   s  what the file gives it over (travel of the indenter, imposed displacement, pressure, time, t), by which the state is found:
 //      on the stretch of the path that the order of the values tells; so histories that come back are followed
 #pragma once

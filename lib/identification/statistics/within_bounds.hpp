@@ -1,6 +1,8 @@
-// Intervals and second moments of a fit with parameters on a bound. What is on its bound is not
-// known to be there: it may be anywhere inside that the data bear, and whatever it is correlated
-// with moves with it. Of the model linearised at the optimum, in the box:
+// Intervals and second moments of a fit with parameters on a bound.
+//
+// An estimate on its bound is not known exactly: the true value may be anywhere inside that the
+// data allow, and correlated parameters move with it. The usual covariance knows nothing of bounds.
+// Here the model is linearised at the optimum, and the linear problem is solved in the box:
 //   interval of p_i   all x with  min over the others of |r + J (p - p^)|^2 - |r|^2  <=  half_i^2 at p_i = x     (profile)
 //   second moments    E (p - p^)(p - p^)^T of fits to fresh noise: p = argmin in the box of |J (p - q)|, q ~ N(p^, covariance of
 //                     the fit without bounds)
