@@ -61,22 +61,32 @@ struct Strut {
   std::string cells = "hex27";
   double shorten = 0.4;
   double step = 0.05;
-  std::string fibres;  // of the material
-  std::string more;    // keys of the config
+  std::string fibres;      // of the material
+  std::string more;        // keys of the config
+  bool both_ends = false;  // each end moves by half, so a half turn maps the path onto itself
 };
 
 constexpr double mu = 1;  // 2 a1 [MPa]
 
 std::string scene(const Strut& s) {
+  std::string ends = fmt::format(
+      "supports: [{{on: x_min, hold: [x, y, z]}}]\n"
+      "loads: [{{on: x_max, displacement: {{x: {}, y: 0, z: 0}}}}]\n",
+      -s.shorten);
+  if (s.both_ends) {
+    ends = fmt::format(
+        "loads: [{{on: x_min, displacement: {{x: {}, y: 0, z: 0}}}}, "
+        "{{on: x_max, displacement: {{x: {}, y: 0, z: 0}}}}]\n",
+        0.5 * s.shorten, -0.5 * s.shorten);
+  }
   return fmt::format(
       "mesh: {{geometry: {{block: {{origin: [{}, {}, {}], size: [{}, {}, {}], divisions: {}}}}}, "
       "cells: {}}}\n"
-      "supports: [{{on: x_min, hold: [x, y, z]}}]\n"
-      "loads: [{{on: x_max, displacement: {{x: {}, y: 0, z: 0}}}}]\n"
+      "{}"
       "material: {{matrix: {{neo_hooke: {{a1: {}}}}}, volume: {{quadratic: {{d: 1.0e-3}}}}{}}}\n"
       "path: {{first: {}, largest: {}}}\n{}\n",
       -0.5 * s.length, -0.5 * s.width, -0.5 * s.thickness, s.length, s.width, s.thickness,
-      s.divisions, s.cells, -s.shorten, 0.5 * mu, s.fibres, s.step, s.step, s.more);
+      s.divisions, s.cells, ends, 0.5 * mu, s.fibres, s.step, s.step, s.more);
 }
 
 // 4 pi^2 E I / L^2, E = 3 mu
@@ -173,11 +183,13 @@ TEST_CASE("a reduced body and the whole body count the same negative eigenvalues
   SUBCASE("a half turn: fibres at an angle") {
     strut.divisions = "[16, 2, 3]";
     strut.fibres = ", fibres: [{hgo: {c1: 0.2, c2: 0.3}, alpha: 40}]";
+    strut.both_ends = true;
     compare(strut, Reduction::Kind::symmetry);
   }
   SUBCASE("hex27") {
     strut.cells = "hex27";
     strut.divisions = "[6, 1, 1]";
+    strut.step = 0.05;  // hex27 do not lock: the strut buckles at 0.041 mm
     compare(strut, Reduction::Kind::symmetry);
   }
 }
@@ -208,7 +220,19 @@ TEST_CASE(
   const Watched each = watched(pressed_column("stability: each_step"));
   const Watched whole = watched(pressed_column("stability: each_step\nsymmetry: none"));
   CHECK(whole.kind == Reduction::Kind::none);
-  CHECK(each.counts() == whole.counts());
+  // The whole body meets singular tangents and cuts its increments back, so the counts are compared
+  // at the times that both have.
+  int common = 0;
+  for (std::size_t i = 0; i < each.steps.size(); ++i) {
+    const auto same = std::ranges::find_if(whole.steps, [&](const StepRecord& step) {
+      return std::abs(step.t - each.steps[i].t) < 1e-9;
+    });
+    if (same == whole.steps.end()) continue;
+    ++common;
+    CAPTURE(same->t);
+    CHECK(each.counts()[i] == whole.counts()[static_cast<std::size_t>(same - whole.steps.begin())]);
+  }
+  CHECK(common >= 4);
   CHECK(usual.counts().back() == whole.counts().back());
   CHECK(!watched(pressed_column("on_unstable: stop")).unstable.empty());
 }

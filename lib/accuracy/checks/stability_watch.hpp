@@ -53,6 +53,7 @@ class StabilityWatch {
   // Which movements the signs of the tangent are of.
   enum class Reach {
     whole_body,
+    whole_of_reduced,         // all of them at each step, of a body that symmetry reduces
     symmetric_until_the_end,  // those that break the symmetry are looked at in the last step only
     section                   // within the plane of a section, or around its axis
   };
