@@ -93,6 +93,62 @@ std::vector<std::pair<const char*, Indenter>> closed_shapes() {
 
 }  // namespace
 
+TEST_CASE("every indenter answers what its discretisation and its drawing need") {
+  const Sphere sphere{2.5, {0.1, 6, -0.2}};
+  CHECK(force_order(sphere) == 2);
+  CHECK(edge_sharpness(sphere) == 1);
+  REQUIRE(ball_of(sphere));
+  CHECK(ball_of(sphere)->centre == Vec3(0.1, 6, -0.2));
+  CHECK(ball_of(sphere)->radius == 2.5);
+  CHECK(ball_of(sphere)->radius == -shape_at(sphere, ball_of(sphere)->centre).gap);
+
+  // an edge or an edge of the body under a flat face: the force converges with h alone
+  const Cylinder punch{2, 0.5, {0, 4, 0}, {0.1, 1, 0.2}};
+  CHECK(force_order(punch) == 1);
+  CHECK(edge_sharpness(punch) == 4);
+  CHECK(edge_sharpness(Cylinder{2, 0, {}, {0, 1, 0}}) == 1);
+  const Plane plane{{0, 1, 0}, {0.2, 1, 0.3}};
+  CHECK(force_order(plane) == 1);
+  CHECK(force_order(Ellipsoid{{3, 1.5, 2}, {0, 5, 0.5}}) == 2);
+
+  // the hole's rim: the plate's face begins at radius + edge
+  const Aperture plate{2, 0.4, {0.1, 1, 0.2}, {0, 1, 0}};
+  CHECK(force_order(plate) == 1);
+  REQUIRE(hole_of(plate));
+  const RoundHole hole = *hole_of(plate);
+  const Vec3 on_face = hole.axis.point + (hole.radius + hole.edge) * Vec3::UnitX();
+  CHECK(std::abs(shape_at(plate, on_face).gap) < 1e-12);
+  CHECK(shape_at(plate, hole.axis.point + hole.edge * hole.axis.along).gap ==
+        doctest::Approx(hole.radius));
+
+  for (const auto& [name, shape] : shapes()) {
+    CAPTURE(name);
+    CHECK(is_flat(shape) == (std::string(name) == "plane"));
+    CHECK(ball_of(shape).has_value() == (std::string(name) == "sphere"));
+    CHECK(hole_of(shape).has_value() == (std::string(name) == "aperture"));
+    CHECK(is_from_file(shape) == (std::string(name) == "facets"));
+    CHECK((triangles_of(shape) != nullptr) == is_from_file(shape));
+  }
+}
+
+TEST_CASE("triangles of a file are scaled, then moved; triangles in place stay") {
+  Facets facets;
+  facets.scale = 10;
+  facets.move = {1, 2, 3};
+  facets.file.path = "surface.stl";
+  Indenter shape = facets;
+  CHECK(surface_file(shape) == "surface.stl");
+  const Triangles t = half_sphere(2, 3, 7);
+  set_file_triangles(shape, t);
+  REQUIRE(triangles_of(shape));
+  for (std::size_t i = 0; i < t.points.size(); ++i)
+    CHECK((triangles_of(shape)->points[i] - (10 * t.points[i] + Vec3(1, 2, 3))).norm() < 1e-12);
+  set_triangles(shape, t);
+  for (std::size_t i = 0; i < t.points.size(); ++i)
+    CHECK(triangles_of(shape)->points[i] == t.points[i]);
+  CHECK(triangles_of(shape)->corners == t.corners);
+}
+
 TEST_CASE("every kind of indenter is among those that are tested here") {
   std::set<std::size_t> kinds;
   for (const auto& [name, shape] : shapes()) {

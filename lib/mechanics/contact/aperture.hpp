@@ -31,6 +31,8 @@ struct Aperture {
   double half_width() const { return std::numeric_limits<double>::infinity(); }
   std::optional<Vec3> inside() const { return std::nullopt; }
   std::optional<Line> axis() const { return Line{vec(face), direction(into)}; }
+  static constexpr int force_order = 1;
+  std::optional<RoundHole> hole() const { return RoundHole{*axis(), radius, edge}; }
 };
 
 }  // namespace langer

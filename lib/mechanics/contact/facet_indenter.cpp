@@ -123,6 +123,15 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
   return out;
 }
 
+void Facets::set_file_triangles(Triangles in_file) {
+  for (Vec3& p : in_file.points) p = scale * p + vec(move);
+  set_triangles(std::move(in_file));
+}
+
+void Facets::set_triangles(Triangles in_place) {
+  tree = std::make_shared<TriangleTree>(std::move(in_place));
+}
+
 ShapePoint Facets::at(const Vec3& x) const {
   const TriangleTree::Nearest near = tree->nearest(x);
   const Vec3 away = near.sign * (x - near.point);

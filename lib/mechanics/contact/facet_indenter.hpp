@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/base/fields.hpp"
@@ -63,6 +64,12 @@ struct Facets {
   double half_width() const;
   std::optional<Vec3> inside() const { return tree->nearest(Vec3::Zero()).point; }
   std::optional<Line> axis() const { return std::nullopt; }
+  static constexpr int force_order = 2;
+
+  std::string surface_file() const { return file.path; }
+  void set_file_triangles(Triangles in_file);  // scales and moves them
+  void set_triangles(Triangles in_place);
+  const Triangles* triangles() const { return &tree->triangles(); }
 };
 
 }  // namespace langer

@@ -28,6 +28,12 @@ bool Cylinder::becomes(const Cylinder& other, const Isometry& op) const {
          turns_to(direction(into), direction(other.into), op);
 }
 
+// A cylinder that was never read from a configuration may have no rounding.
+double Cylinder::edge_sharpness() const {
+  if (!(edge > 0)) return 1;
+  return std::max(1.0, radius / edge);
+}
+
 // from its flat end as far as it is wide
 Outline Cylinder::outline(const Shown& shown) const {
   std::vector<std::array<double, 2>> profile{{0, 0}};
@@ -50,8 +56,6 @@ Vec3 nearest(Vec3 q, const Vec3& h) {
     // off the planes of symmetry: one nearest point
     if (std::abs(v) < tiny) {
       v = std::copysign(tiny, v);
-    } else {
-      v = v;
     }
   }
   const Vec3 hh = h.cwiseProduct(h);

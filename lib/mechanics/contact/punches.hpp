@@ -27,6 +27,8 @@ struct Cylinder {
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(into)); }
   std::optional<Line> axis() const { return Line{vec(face), direction(into)}; }
+  static constexpr int force_order = 1;
+  double edge_sharpness() const;
 };
 
 struct Ellipsoid {
@@ -41,8 +43,9 @@ struct Ellipsoid {
   Outline outline(const Shown& shown) const;
   double half_width() const;
   std::optional<Vec3> inside() const { return vec(centre); }
-  // where two half axes are equal: along the third; of a sphere along y
+  // along the third half axis if the other two are equal; along y if all three are
   std::optional<Line> axis() const;
+  static constexpr int force_order = 2;
 };
 
 }  // namespace langer

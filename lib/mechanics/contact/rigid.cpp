@@ -1,6 +1,7 @@
 #include "mechanics/contact/rigid.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace langer {
 
@@ -79,8 +80,8 @@ bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op) {
 
 bool unchanged_by(const Indenter& shape, const Isometry& op) { return becomes(shape, shape, op); }
 
-// what stays as it is when turned by one radian does so for every turn: no multiple of it is a
-// whole one
+// A shape that a rotation by one radian leaves unchanged is unchanged by every rotation: the
+// multiples of one radian are dense on the circle.
 bool is_revolved_about(const Line& line, const Indenter& shape) {
   return unchanged_by(shape, {rotation(line.along, 1), line.point});
 }
@@ -99,6 +100,83 @@ double half_width(const Indenter& shape) {
 
 std::optional<Vec3> point_inside(const Indenter& shape) {
   return std::visit([](const auto& s) { return s.inside(); }, shape);
+}
+
+std::optional<RoundHole> hole_of(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) -> std::optional<RoundHole> {
+        if constexpr (requires { s.hole(); }) return s.hole();
+        return std::nullopt;
+      },
+      shape);
+}
+
+std::optional<Ball> ball_of(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) -> std::optional<Ball> {
+        if constexpr (requires { s.ball(); }) return s.ball();
+        return std::nullopt;
+      },
+      shape);
+}
+
+bool is_flat(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.is_flat; }) return s.is_flat;
+        return false;
+      },
+      shape);
+}
+
+int force_order(const Indenter& shape) {
+  return std::visit([](const auto& s) { return s.force_order; }, shape);
+}
+
+double edge_sharpness(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.edge_sharpness(); }) return s.edge_sharpness();
+        return 1.0;
+      },
+      shape);
+}
+
+bool is_from_file(const Indenter& shape) { return surface_file(shape).has_value(); }
+
+std::optional<std::string> surface_file(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) -> std::optional<std::string> {
+        if constexpr (requires { s.surface_file(); }) return s.surface_file();
+        return std::nullopt;
+      },
+      shape);
+}
+
+void set_file_triangles(Indenter& shape, Triangles in_file) {
+  std::visit(
+      [&](auto& s) {
+        if constexpr (requires { s.set_file_triangles(in_file); })
+          s.set_file_triangles(std::move(in_file));
+      },
+      shape);
+}
+
+void set_triangles(Indenter& shape, Triangles in_place) {
+  std::visit(
+      [&](auto& s) {
+        if constexpr (requires { s.set_triangles(in_place); }) s.set_triangles(std::move(in_place));
+      },
+      shape);
+}
+
+const Triangles* triangles_of(const Indenter& shape) {
+  return std::visit(
+      [](const auto& s) -> const Triangles* {
+        if constexpr (requires { s.triangles(); }) return s.triangles();
+        return nullptr;
+      },
+      shape);
 }
 
 }  // namespace langer

@@ -1,12 +1,22 @@
-// What a rigid shape answers for itself. A new one: a struct with these members in a file of its
-// own, and its word in the list of contact/rigid.hpp.
-//   at(x)             gap: signed distance, > 0 outside [mm]; normal: gradient of the gap, from the shape to the body;
-//                     curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of constant gap through x [1/mm]
-//   becomes(other, op)  `other` is its image; false where it cannot tell
-//   outline(shown)    its surface, for pictures
-//   half_width()      half the width of a shape that has an end everywhere, infinite without [mm]
-//   inside()          a point inside of such a shape
-//   axis()            that about which it may turn without becoming another: its axis of revolution; none where it has none
+// The interface of a rigid shape. To add a shape, write a struct with these members in its own file
+// and name it in the list of contact/rigid.hpp; no other code distinguishes shapes.
+//   at(x)               gap: signed distance, positive outside [mm]
+//                       normal: gradient of the gap, from the shape to the body
+//                       curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of
+//                       constant gap through x [1/mm]
+//   becomes(other, op)  whether op maps the shape onto `other`; false if this is not known
+//   outline(shown)      the surface as polygons, for pictures
+//   half_width()        half the width of a bounded shape, infinite for an unbounded one [mm]
+//   inside()            a point inside a bounded shape
+//   axis()              the axis of revolution, if there is one
+//   force_order         order in the element size at which the force converges: 2 for a smooth
+//                       surface; 1 if an edge or a face presses singular stresses into the body
+// Some shapes have these members too; contact/rigid.hpp gives the answer of all others:
+//   edge_sharpness()    width of the shape in radii of its rounded edge, else 1
+//   hole()              the round hole that the body is drawn into, else none
+//   ball()              the shape as a ball, if it is exactly one, else none
+//   is_flat             whether its whole surface is one plane, else false
+//   surface_file(), set_triangles(), ...   if its surface is read from a file
 #pragma once
 
 #include <concepts>
@@ -30,6 +40,19 @@ struct Isometry {
   Vec3 centre = Vec3::Zero();
   Vec3 operator()(const Vec3& x) const;
 };
+
+// A round hole with a rounded edge in a plate: the plate is flat from radius + edge on.
+struct RoundHole {
+  Line axis;          // from the face into the plate
+  double radius = 0;  // [mm]
+  double edge = 0;    // radius of the rounded edge [mm]
+};
+
+struct Ball {
+  Vec3 centre;
+  double radius = 0;  // [mm]
+};
+
 inline constexpr double same_place = 1e-9;  // relative
 bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op);
 bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op);
@@ -43,6 +66,7 @@ concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, cons
   { shape.half_width() } -> std::same_as<double>;
   { shape.inside() } -> std::same_as<std::optional<Vec3>>;
   { shape.axis() } -> std::same_as<std::optional<Line>>;
+  { S::force_order } -> std::convertible_to<int>;
 };
 
 // curvature round the axis a at the distance rho from it, where the normal has the component n_rho
