@@ -184,7 +184,7 @@ class FebioWriter {
     material_ += fmt::format(
         "    <material id=\"{}\" name=\"{}\" type=\"rigid "
         "body\"><density>1</density><center_of_mass>{}</center_of_mass></material>\n",
-        id, name, triple(vec(std::get<Sphere>(c.law.shape).centre)));
+        id, name, triple(ball_of(c.law.shape)->centre));
     const std::string face = rigid_cells(c, name);
     surface_pair(c, name, face);
     contact_ += fmt::format(

@@ -75,7 +75,7 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
       refuse(path, "contacts." + name + ".control", "an indenter under force control",
              "one that moves as told");
   for (const auto& [name, contact] : config.contacts)
-    if (!std::holds_alternative<Sphere>(contact.rigid))
+    if (!ball_of(contact.rigid))
       refuse(
           path, "contacts." + name + ".rigid", "an indenter of another shape",
           "a sphere, or no indenter: the nearest to an ellipsoid is the sphere of its curvature, to a plane a large one");
@@ -157,8 +157,8 @@ DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::str
     places.push_back(mesh.X[n]);
     for (const Waypoint& w : law.motion) places.push_back(mesh.X[n] - w.to);
   }
-  contact.cap = rigid_cap(std::get<Sphere>(law.shape), towards, places,
-                          0.5 * shortest_side(mesh, contact.facets));
+  contact.cap =
+      rigid_cap(*ball_of(law.shape), towards, places, 0.5 * shortest_side(mesh, contact.facets));
   return contact;
 }
 
@@ -295,7 +295,7 @@ class DeckComposer {
 
   void add_contact(std::size_t c) {
     const RigidContact& law = scene().contacts[c];
-    const Sphere& sphere = std::get<Sphere>(law.shape);
+    const Ball sphere = *ball_of(law.shape);
     const Vec3 to = plain(indenter_displacement(law, 1));
     deck_.words.push_back(fmt::format(
         "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",

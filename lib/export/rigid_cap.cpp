@@ -7,9 +7,9 @@
 
 namespace langer {
 
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side) {
-  const Vec3 centre = vec(sphere.centre);
+  const Vec3 centre = sphere.centre;
   const double R = sphere.radius;
   const double degree = std::numbers::pi / 180;
   int axis = 0;

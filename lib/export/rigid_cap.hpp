@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/tensor/types.hpp"
-#include "mechanics/contact/rigid.hpp"
+#include "mechanics/contact/shape.hpp"
 
 namespace langer {
 
@@ -21,7 +21,7 @@ struct RigidCap {
 
 // towards: unit vector from the centre to the body. places: where, seen from the indenter's start,
 // nodes may touch it [mm].
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side);
 
 }  // namespace langer
