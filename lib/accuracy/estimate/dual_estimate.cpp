@@ -45,8 +45,7 @@ void need_known_kind(const SolveConfig& config, const Run& run) {
     throw not_known("formulation: displacement has no pressures of its own");
   if (!run.mesh.cell().hexahedron()) throw not_known("no scene of tetrahedra was measured");
   for (const RigidContact& contact : run.scene.contacts)
-    if (std::holds_alternative<Facets>(contact.shape))
-      throw not_known("no indenter from a file was measured");
+    if (is_from_file(contact.shape)) throw not_known("no indenter from a file was measured");
   if (run.reduction.scene().contacts.size() != run.scene.contacts.size())
     throw not_known("symmetry exchanges the indenters");
 }

@@ -148,8 +148,7 @@ double between_points(double touching, bool section) {
 double sharpness(const SolveConfig& config) {
   double most = 1;
   for (const auto& [name, contact] : config.contacts)
-    if (const auto* punch = std::get_if<Cylinder>(&contact.rigid); punch && punch->edge > 0)
-      most = std::max(most, punch->radius / punch->edge);
+    most = std::max(most, edge_sharpness(contact.rigid));
   return most;
 }
 
@@ -221,15 +220,10 @@ double one_by_one(double touching, bool section) {
 // indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
-  return std::any_of(config.contacts.begin(), config.contacts.end(),
-                     [](const auto& contact) {
-                       const Indenter& rigid = contact.second.rigid;
-                       return std::holds_alternative<Plane>(rigid) ||
-                              std::holds_alternative<Cylinder>(rigid) ||
-                              std::holds_alternative<Aperture>(rigid);
-                     })
-             ? 1
-             : 2;
+  int order = 2;
+  for (const auto& [name, contact] : config.contacts)
+    order = std::min(order, force_order(contact.rigid));
+  return order;
 }
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }

@@ -276,11 +276,8 @@ void add_turned(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mes
 }
 
 void read_triangles(RigidContact& rigid) {
-  auto* facets = std::get_if<Facets>(&rigid.shape);
-  if (!facets) return;
-  Triangles triangles = read_surface(facets->file.path);
-  for (Vec3& p : triangles.points) p = facets->scale * p + vec(facets->move);
-  facets->tree = std::make_shared<TriangleTree>(std::move(triangles));
+  if (const auto file = surface_file(rigid.shape))
+    set_file_triangles(rigid.shape, read_surface(*file));
 }
 
 void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std::string& key,
@@ -387,17 +384,16 @@ void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes,
 // A hole that no candidate lies beyond has nothing to press on.
 void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::string& key,
                       const Find& where, std::vector<Error>& errors) {
-  const auto* aperture = std::get_if<Aperture>(&rigid.shape);
-  if (!aperture || rigid.nodes.empty()) return;
+  const auto hole = hole_of(rigid.shape);
+  if (!hole || rigid.nodes.empty()) return;
   double widest = 0;
-  for (int node : rigid.nodes)
-    widest = std::max(widest, about(*aperture->axis(), mesh.X[node]).rho);
-  if (widest > aperture->radius) return;
+  for (int node : rigid.nodes) widest = std::max(widest, about(hole->axis, mesh.X[node]).rho);
+  if (widest > hole->radius) return;
   errors.push_back(
       {where(key), key + ".radius",
        fmt::format(
            "a hole of {:g} mm, and all that may touch the plate is within {:.4g} mm of its axis",
-           aperture->radius, widest),
+           hole->radius, widest),
        "a hole that the body reaches beyond", "look at the place of the hole and at `on`"});
 }
 

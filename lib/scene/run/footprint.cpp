@@ -90,7 +90,7 @@ std::vector<Footprint> footprints(const SolveConfig& config, const Box& body) {
                 body.origin[1] + body.size[1]};
   std::vector<Footprint> out;
   for (const auto& [name, contact] : config.contacts) {
-    if (std::holds_alternative<Facets>(contact.rigid)) continue;
+    if (is_from_file(contact.rigid)) continue;
     std::optional<Footprint> found;
     Vec3 before = Vec3::Zero();
     for (const WaypointConfig& waypoint : contact.motion) {

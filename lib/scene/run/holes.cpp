@@ -20,12 +20,11 @@ double cell_length(const Geometry& geometry) {
 // share of its force. It slips and lifts at the edge, which cells as long as that do not see; what
 // is fitted to them was half of their error (docs/loads.md).
 double beside_holes(const SolveConfig& config) {
-  const auto has_edge = [](const auto& contact) {
-    return std::holds_alternative<Aperture>(contact.second.rigid);
-  };
-  const auto plate = std::find_if(config.contacts.begin(), config.contacts.end(), has_edge);
-  if (plate == config.contacts.end()) return 0;
-  const double radius = std::get<Aperture>(plate->second.rigid).radius;
+  std::optional<RoundHole> hole;
+  for (const auto& [name, contact] : config.contacts)
+    if (!hole) hole = hole_of(contact.rigid);
+  if (!hole) return 0;
+  const double radius = hole->radius;
   const auto size = box(config.mesh->geometry).size;
   double top = 0;
   if (is_section(config.mesh->geometry)) {
@@ -43,8 +42,8 @@ double beside_holes(const SolveConfig& config) {
 double under_holes(const SolveConfig& config) {
   double least = 0;
   for (const auto& [name, contact] : config.contacts)
-    if (const auto* plate = std::get_if<Aperture>(&contact.rigid))
-      least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / plate->radius);
+    if (const auto hole = hole_of(contact.rigid))
+      least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / hole->radius);
   return std::min(0.5, least);
 }
 
@@ -76,12 +75,12 @@ std::string over_an_edge(const SolveConfig& config, const std::string& quantity)
   const auto point = config.mesh->points.find(quantity.substr(begins.size()));
   if (point == config.mesh->points.end()) return "";
   for (const auto& [name, contact] : config.contacts) {
-    const auto* plate = std::get_if<Aperture>(&contact.rigid);
-    if (!plate) continue;
+    const auto hole = hole_of(contact.rigid);
+    if (!hole) continue;
     const Vec3 at = vec(point->second);
-    const double rho = about(*plate->axis(), at).rho;
-    if (rho >= plate->radius * (1 - 1e-9) && rho <= plate->radius + 2 * plate->edge &&
-        plate->at(at).gap <= plate->edge)
+    const double rho = about(hole->axis, at).rho;
+    if (rho >= hole->radius * (1 - 1e-9) && rho <= hole->radius + 2 * hole->edge &&
+        shape_at(contact.rigid, at).gap <= hole->edge)
       return fmt::format(
           "the error of {} is not known: the point lies at the edge of the hole of \"{}\", and what slips over it follows no law of the "
           "cells' length",

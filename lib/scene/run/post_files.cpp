@@ -167,10 +167,10 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
       if (!header.contact_nodes.count(name)) return {};
       RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
       indenter.nodes = header.contact_nodes.at(name);
-      if (auto* facets = std::get_if<Facets>(&indenter.shape)) {
+      if (is_from_file(indenter.shape)) {
         const auto surface = header.indenter_surfaces.find(name);
         if (surface == header.indenter_surfaces.end()) continue;
-        facets->tree = std::make_shared<TriangleTree>(surface->second);
+        set_triangles(indenter.shape, surface->second);
       }
       indenters.push_back(std::move(indenter));
     }

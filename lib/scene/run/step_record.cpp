@@ -39,8 +39,8 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
   header.formulation = names(formulation)[static_cast<int>(formulation)];
   for (const RigidContact& contact : scene.contacts) {
     header.contact_nodes[contact.name] = contact.nodes;
-    if (const auto* facets = std::get_if<Facets>(&contact.shape))
-      header.indenter_surfaces[contact.name] = facets->tree->triangles();
+    if (const Triangles* triangles = triangles_of(contact.shape))
+      header.indenter_surfaces[contact.name] = *triangles;
   }
   header.identity = identity;
   return header;
