@@ -188,7 +188,7 @@ class Crate {
       const std::string place = place_in_crate(path);
       const fs::path to = folder_ / place;
       make_folder_below(folder_.string(), to.parent_path().string());
-      need_replaceable(to.string());
+      require_replaceable(to.string());
       const std::string bytes = read_file((folder_ / path).string());
       if (!fs::is_regular_file(to) || read_file(to.string()) != bytes) {
         replace_file(to.string(), bytes);
@@ -227,7 +227,7 @@ class Crate {
         "\"$bin/langer\" crate \"$here\" --same-as \"{}\"\n",
         script_mark, run, inputs_folder, inputs_folder, run, copies, run, run);
     const std::string path = (folder_ / script).string();
-    need_own_text(path, script_mark);
+    require_own_text(path, script_mark);
     write_text_file(path, body);
     fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
   }
@@ -451,7 +451,7 @@ class Crate {
 
 CrateReport write_crate(const std::string& folder, const CrateWords& words) {
   const std::string path = (fs::path(folder) / metadata).string();
-  need_own_text(path, "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\"");
+  require_own_text(path, "{\n  \"@context\": \"https://w3id.org/ro/crate/1.1/context\"");
   Crate crate(folder, words.root);
   crate.need_all_done();
   crate.need_same_inputs();

@@ -20,7 +20,7 @@ std::vector<WrittenDeck> write_decks(const std::string& solution,
                                         "found \"" + file + "\"",
                                         "a file ending with .inp (CalculiX) or .feb (FEBio 4)",
                                         ""});
-  for (const std::string& file : files) need_own_text(file, written_by);
+  for (const std::string& file : files) require_own_text(file, written_by);
   const Deck deck = deck_of(SolutionReader(solution), solution);
   std::vector<WrittenDeck> written;
   std::vector<std::string> texts;

@@ -175,7 +175,7 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     std::vector<Series> columns;
     std::vector<std::string> units;
     for (const std::string& name : values.datasets()) {
-      need_known_unit(values, name);
+      require_known_unit(values, name);
       const auto column = values.read<double>(name, {n}).values;
       table.columns.push_back({name, values.unit(name)});
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(column[i]);

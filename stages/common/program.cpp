@@ -62,7 +62,7 @@ RunLog::~RunLog() {
 
 void RunLog::open(const std::string& path, const std::string& command, bool goes_on) {
   if (said::silent) return;
-  need_own_log(path);
+  require_own_log(path);
   std::error_code failed;  // a folder that cannot be made has no file either
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);

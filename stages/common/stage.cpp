@@ -106,7 +106,7 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
       identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);
   first([&] {
-    if (!task.dry_run) need_replaceable(task.output);  // by now it is known what the config names
+    if (!task.dry_run) require_replaceable(task.output);  // by now it is known what the config names
     begin_beside(task.output);
   });
   return config;

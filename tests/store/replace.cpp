@@ -30,7 +30,7 @@ TEST_CASE("what a run reads is not replaced, whatever name leads to it") {
     CHECK(holds(refusal([&] { write_text_file(folder + name, "strain,stress_MPa\n"); }),
                 "is read by this run and would be replaced"));
     CHECK(holds(refusal([&] { h5::File::create(folder + name); }), "is read by this run"));
-    CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is read by this run"));
+    CHECK(holds(refusal([&] { require_own_log(folder + name); }), "is read by this run"));
   }
   CHECK(example::bytes(data) == "strain,stress_MPa\n0,0\n");
   CHECK_FALSE(std::filesystem::exists(data + ".part"));
@@ -52,14 +52,14 @@ TEST_CASE("devices, FIFOs, folders and links are not replaced") {
   for (const auto& refused : cases) {
     const std::string &path = refused[0], &found = refused[1];
     CAPTURE(path);
-    CHECK(holds(refusal([&] { need_own_output(path); }), found));
+    CHECK(holds(refusal([&] { require_own_output(path); }), found));
     CHECK(holds(refusal([&] { write_text_file(path, "a\n"); }), found));
     CHECK(holds(refusal([&] { h5::File::create(path); }), found));
   }
-  CHECK(refusal([&] { need_own_log("/dev/null"); }) == "");
-  CHECK(refusal([&] { need_own_log(folder + "/new.log"); }) == "");
+  CHECK(refusal([&] { require_own_log("/dev/null"); }) == "");
+  CHECK(refusal([&] { require_own_log(folder + "/new.log"); }) == "");
   for (const char* name : {"/fifo", "/link", "/dangling"})
-    CHECK(refusal([&] { need_own_log(folder + name); }) != "");
+    CHECK(refusal([&] { require_own_log(folder + name); }) != "");
 }
 
 TEST_CASE("an output or a log that is there has to be ours") {
@@ -73,14 +73,14 @@ TEST_CASE("an output or a log that is there has to be ours") {
   write_bytes(folder + "/page.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<p>my own page");
   write_bytes(folder + "/solve.log", "# langer-solve solve.yaml\n");
   for (const char* name : {"/mesh.h5", "/empty.h5", "/cut.h5", "/report.html", "/none.h5"})
-    CHECK(refusal([&] { need_own_output(folder + name); }) == "");
+    CHECK(refusal([&] { require_own_output(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/solve.log", "/page.html"})
-    CHECK(holds(refusal([&] { need_own_output(folder + name); }),
+    CHECK(holds(refusal([&] { require_own_output(folder + name); }),
                 "is there already and was not made by langer"));
   for (const char* name : {"/solve.log", "/none.log"})
-    CHECK(refusal([&] { need_own_log(folder + name); }) == "");
+    CHECK(refusal([&] { require_own_log(folder + name); }) == "");
   for (const char* name : {"/notes.txt", "/mesh.h5"})
-    CHECK(holds(refusal([&] { need_own_log(folder + name); }), "is no log of langer"));
+    CHECK(holds(refusal([&] { require_own_log(folder + name); }), "is no log of langer"));
 }
 
 TEST_CASE(
@@ -108,20 +108,20 @@ TEST_CASE(
   begin_beside(folder + "/curves.h5");
   write_bytes(folder + "/render.png", "a photograph");
   CHECK(
-      holds(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }),
+      holds(refusal([&] { require_replaceable_from(folder + "/render.png", folder + "/render.gp"); }),
             "was not made by this step"));
   write_bytes(folder + "/render.gp", "# made by langer\n");  // of a run that was killed
-  CHECK(refusal([&] { need_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) ==
+  CHECK(refusal([&] { require_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) ==
         "");
-  CHECK(refusal([&] { need_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) == "");
+  CHECK(refusal([&] { require_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) == "");
   write_bytes(folder + "/snapshot_0001.hdf", "\x89HDF\r\n\x1a\n of another program");
   CHECK(holds(refusal([&] { h5::File::create(folder + "/snapshot_0001.hdf"); }),
               "was not made by langer"));
   write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<febio_spec/>\n");
-  CHECK(holds(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }),
+  CHECK(holds(refusal([&] { require_own_text(folder + "/scene.feb", "written by langer"); }),
               "was not made by langer"));
   write_bytes(folder + "/scene.feb", "<?xml version=\"1.0\"?>\n<!-- written by langer 0.2.0 -->\n");
-  CHECK(refusal([&] { need_own_text(folder + "/scene.feb", "written by langer"); }) == "");
+  CHECK(refusal([&] { require_own_text(folder + "/scene.feb", "written by langer"); }) == "");
 }
 
 TEST_CASE("a cell of a CSV table stands between quotes where it has to") {

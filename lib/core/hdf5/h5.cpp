@@ -278,7 +278,7 @@ bool is_open_by(hid_t file, int fd) {
 
 File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
-  need_own_output(path);
+  require_own_output(path);
   auto file = std::make_shared<OpenFile>();
   file->path = path;
   file->current = path + ".part";

@@ -65,7 +65,7 @@ std::string begin_of(const std::string& path, std::size_t bytes) {
 
 void never_replace(const std::string& path) { spared().push_back(path); }
 
-void need_replaceable(const std::string& path) {
+void require_replaceable(const std::string& path) {
   refuse_link(path);
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
@@ -78,8 +78,8 @@ void need_replaceable(const std::string& path) {
 
 void begin_beside(const std::string& output) { first_time = !fs::exists(output); }
 
-void need_replaceable_by(const std::string& path, const std::string& text) {
-  need_replaceable(path);
+void require_replaceable_by(const std::string& path, const std::string& text) {
+  require_replaceable(path);
   if (!first_time) return;
   const std::string line = text.substr(0, text.find('\n') + 1);
   const std::string is = begin_of(path, std::max<std::size_t>(line.size(), 1));
@@ -88,15 +88,15 @@ void need_replaceable_by(const std::string& path, const std::string& text) {
            "remove or rename it, or -o into another folder");
 }
 
-void need_replaceable_from(const std::string& path, const std::string& script) {
-  need_replaceable(path);
+void require_replaceable_from(const std::string& path, const std::string& script) {
+  require_replaceable(path);
   if (first_time && !begin_of(path, 1).empty() && !fs::exists(script))
     refuse(path, "is there already and was not made by this step",
            "remove or rename it, or -o into another folder");
 }
 
-void need_own_output(const std::string& path) {
-  need_replaceable(path);
+void require_own_output(const std::string& path) {
+  require_replaceable(path);
   if (begin_of(path, 1).empty()) return;
   const std::string begin = begin_of(path, 15);
   const bool hdf5 = begin.starts_with("\x89HDF\r\n\x1a\n");
@@ -105,13 +105,13 @@ void need_own_output(const std::string& path) {
     refuse(path, "is there already and was not made by langer", "another name (-o), or remove it");
 }
 
-void need_own_text(const std::string& path, const std::string& mark) {
-  need_replaceable(path);
+void require_own_text(const std::string& path, const std::string& mark) {
+  require_replaceable(path);
   if (!begin_of(path, 1).empty() && !holds(path, mark))
     refuse(path, "is there already and was not made by langer", "another name, or remove it");
 }
 
-void need_own_log(const std::string& path) {
+void require_own_log(const std::string& path) {
   refuse_link(path);
   refuse_input(path);
   std::error_code none;

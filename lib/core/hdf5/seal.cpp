@@ -127,17 +127,17 @@ void rename_or_refuse(const std::string& part, const std::string& path) {
 }  // namespace
 
 void write_text_file(const std::string& path, const std::string& text) {
-  need_replaceable_by(path, text);
+  require_replaceable_by(path, text);
   rename_durably(write_part(path, text), path);
 }
 
 void write_text_file_soon(const std::string& path, const std::string& text) {
-  need_replaceable_by(path, text);
+  require_replaceable_by(path, text);
   rename_or_refuse(write_part(path, text), path);
 }
 
 void replace_file(const std::string& path, const std::string& bytes) {
-  need_replaceable(path);
+  require_replaceable(path);
   rename_or_refuse(write_part(path, bytes), path);
 }
 

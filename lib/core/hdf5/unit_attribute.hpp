@@ -15,7 +15,7 @@ inline constexpr const char* house_units = "mm N MPa s deg";
 
 // `unit`: that of the values as they are used; the dataset's attribute `unit` or `units`, where it
 // has one, must say the same. "-" and "" there pass: so older versions wrote what nobody had named.
-inline void need_unit(const h5::Group& group, const std::string& name, const std::string& unit) {
+inline void require_unit(const h5::Group& group, const std::string& name, const std::string& unit) {
   if (unit.empty()) return;
   for (const char* attribute : {"unit", "units"})
     if (const std::string found = group.annotation(name, attribute);
@@ -33,7 +33,7 @@ inline bool among_ours(const std::string& unit) {
 
 // Of values that are used with the unit that stands beside them: it has to be made of ours, so that
 // tables and pictures of several files have one unit for one name.
-inline void need_known_unit(const h5::Group& group, const std::string& name) {
+inline void require_known_unit(const h5::Group& group, const std::string& name) {
   const std::string unit = group.unit(name);
   std::string word;
   for (const char c : unit + " ") {

@@ -214,7 +214,7 @@ bool holds(const fs::path& path, const std::string& text) {
 bool write_if_changed(const fs::path& folder, const std::string& file, const std::string& text) {
   const fs::path path = folder / file;
   make_folder_below(folder.string(), path.parent_path().string());
-  need_replaceable(path.string());
+  require_replaceable(path.string());
   if (holds(path, text)) return false;
   write_text_file_soon(path.string(), text);
   return true;
@@ -299,8 +299,8 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
   make_folder_below(report.folder, report.folder);
   const fs::path run = report.folder;
   const std::string makefile = (run / "Makefile").string();
-  need_own_text(makefile, planned_by);
-  if (others.snakemake) need_own_text((run / "Snakefile").string(), planned_by);
+  require_own_text(makefile, planned_by);
+  if (others.snakemake) require_own_text((run / "Snakefile").string(), planned_by);
   begin_beside(makefile);
   const OutputLock lock(makefile, command);
   for (const TextFile& file : planning.files) {

@@ -60,8 +60,8 @@ void need_output(const std::string& output, const std::string& config, const Inp
     sources.insert(sources.end(), files.begin(), files.end());
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
-  need_own_output(output);
-  for (const char* beside : {".part", ".steps", ".lock"}) need_replaceable(output + beside);
+  require_own_output(output);
+  for (const char* beside : {".part", ".steps", ".lock"}) require_replaceable(output + beside);
   const fs::path folder =
       fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
   fs::create_directories(folder, ec);

@@ -15,7 +15,7 @@ void Pictures::need_places(const std::string& name, bool svg_too) const {
     if (svg_too || format != PictureFormat::svg)
       types.push_back(std::string(".") + names(format)[static_cast<std::size_t>(format)]);
   for (const std::string& type : types)
-    need_replaceable_from(place(name + type), place(name + ".gp"));
+    require_replaceable_from(place(name + type), place(name + ".gp"));
 }
 
 void Pictures::run(const std::string& name, const std::string& script) {

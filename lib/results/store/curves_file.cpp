@@ -122,8 +122,8 @@ SurfaceMap read_map(const h5::Group& group, const std::string& name) {
                  {},
                  {},
                  {}};
-  need_known_unit(group, "values");
-  for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
+  require_known_unit(group, "values");
+  for (const char* name : {"places", "points"}) require_unit(group, name, "mm");
   map.values = group.read_finite("values", {h5::any});
   const std::size_t n = map.values.size();
   map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));
@@ -189,7 +189,7 @@ CurvesFile read_curves(const std::string& path) {
                  one.unit("y"),
                  {},
                  {}};
-    for (const char* axis : {"x", "y"}) need_known_unit(one, axis);
+    for (const char* axis : {"x", "y"}) require_known_unit(one, axis);
     c.x = one.read<double>("x", {h5::any}).values;
     c.y = one.read<double>("y", {c.x.size()}).values;
     result.curves.curves.push_back(std::move(c));
@@ -197,7 +197,7 @@ CurvesFile read_curves(const std::string& path) {
   std::istringstream order(columns.text_attribute("order"));
   std::size_t rows = h5::any;
   for (std::string name; order >> name;) {
-    need_known_unit(columns, name);
+    require_known_unit(columns, name);
     Column c{name, columns.unit(name), columns.read<double>(name, {rows}).values};
     rows = c.values.size();
     result.curves.columns.push_back(std::move(c));

@@ -51,7 +51,7 @@ template <class V>
 void read_member(const h5::Group& group, const Member& m, const std::string& name, V& value) {
   if constexpr (std::is_arithmetic_v<V>) {
     const double x = group.read_scalar(name);
-    need_unit(group, name, m.unit);
+    require_unit(group, name, m.unit);
     const Range& r = m.range;
     if (!std::isfinite(x) || x < r.low || x > r.high || (x == r.low && !r.low_included) ||
         (x == r.high && !r.high_included))

@@ -34,7 +34,7 @@ void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
 
 void check_units(const h5::Group& group,
                  std::initializer_list<std::pair<const char*, const char*>> units) {
-  for (const auto& [name, unit] : units) need_unit(group, name, unit);
+  for (const auto& [name, unit] : units) require_unit(group, name, unit);
 }
 
 StiffnessAtRest read_at_rest(const h5::Group& group) {
@@ -313,9 +313,9 @@ FitRecord read_fit(const h5::Group& root) {
   std::istringstream order(parameters.text_attribute("order"));
   for (std::string name; order >> name;) {
     const h5::Group one = parameters.group(name);
-    need_known_unit(one, "value");
+    require_known_unit(one, "value");
     for (const char* other : {"lower", "upper", "standard_error"})
-      need_unit(one, other, one.unit("value"));
+      require_unit(one, other, one.unit("value"));
     fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"),
                               one.read_scalar("lower"), one.read_scalar("upper"),
                               one.read_scalar("standard_error")});

@@ -167,7 +167,7 @@ std::vector<Summary> read_summary(const h5::Group& root) {
   if (!root.has("summary")) return summary;
   const h5::Group group = root.group("summary");
   for (const std::string& name : group.datasets()) {
-    need_known_unit(group, name);
+    require_known_unit(group, name);
     summary.push_back({name, group.read_scalar(name), group.unit(name)});
   }
   return summary;

@@ -64,7 +64,7 @@ Directions read_directions(const h5::Group& cells, const SolutionHeader& header)
 
 void check_units(const h5::Group& root) {
   const auto units_of = [](const h5::Group& group, auto&& unit) {
-    for (const std::string& name : group.datasets()) need_unit(group, name, unit(name));
+    for (const std::string& name : group.datasets()) require_unit(group, name, unit(name));
   };
   const auto of_list = [](const std::string& name) {
     return solution::unit_of(name);

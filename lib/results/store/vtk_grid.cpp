@@ -190,7 +190,7 @@ Mesh read_grid(const h5::Group& root) {
   const auto types = grid.read<std::uint8_t>("Types", {e}).values;
   mesh.type = type_of(grid, types);
   const std::int64_t per_cell = nodes_per_cell(mesh.type);
-  need_unit(grid, "Points", "mm");
+  require_unit(grid, "Points", "mm");
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
   mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));
   const auto offsets = grid.read<std::int64_t>("Offsets", {e + 1});
@@ -238,7 +238,7 @@ void write_triangles(const h5::Group& group, const Triangles& triangles) {
 
 Triangles read_triangles(const h5::Group& group) {
   Triangles triangles;
-  need_unit(group, "points", "mm");
+  require_unit(group, "points", "mm");
   triangles.points = vectors(group.read_finite("points", {h5::any, 3}));
   const std::vector<int> corners =
       indices(group, "triangles", {h5::any, 3}, static_cast<std::int64_t>(triangles.points.size()));

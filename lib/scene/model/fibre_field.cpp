@@ -79,7 +79,7 @@ MeasuredDirections from_hdf5(const PointField& field) {
   std::array<std::vector<double>, 6> column;
   for (int i = 0; i < 6; ++i) {
     column[i] = file.root().read_finite(field.columns[i], {h5::any});
-    need_unit(file.root(), field.columns[i], i < 3 ? "mm" : "-");
+    require_unit(file.root(), field.columns[i], i < 3 ? "mm" : "-");
     if (column[i].size() != column[0].size())
       throw Failure(Exit::input,
                     Error{{field.file.path, 0, 0},
