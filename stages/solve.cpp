@@ -35,7 +35,7 @@ std::vector<Summary> beside_first(Run& run, bool dry_run, const SolveConfig& con
     forecast_of(config, run.body, run.statics, run.scene.stops);
     return {};
   }
-  by_first(run.shared_by(), [] { return true; });
+  on_root_rank(run.shared_by(), [] { return true; });
   run.resume_all();
   run.follow();
   return {};
@@ -58,7 +58,7 @@ std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const 
   std::optional<Sensitivity> sensitivity;
   std::optional<Uncertainty> uncertainty;
   std::optional<Recording> kept;
-  by_first(run.shared_by(), [&] {
+  on_root_rank(run.shared_by(), [&] {
     need_memory(run.statics, watch.of_mesh(), config.threads);
     loose = held_by_contact(run, job.where);
     sensitivity.emplace(run, config, job.where);

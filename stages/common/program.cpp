@@ -128,7 +128,7 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
   set_traps();
   try {
     return body();
-  } catch (const EndedByFirst&) {
+  } catch (const EndedByRoot&) {
     return static_cast<int>(Exit::ok);  // with the code of rank 0
   } catch (const Failure& failure) {
     say_error(failure.what());

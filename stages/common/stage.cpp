@@ -20,7 +20,7 @@ namespace {
 // What one rank does for all.
 template <class Work>
 void first(Work work) {
-  by_first(ranks(), [&] {
+  on_root_rank(ranks(), [&] {
     work();
     return true;
   });

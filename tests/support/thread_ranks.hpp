@@ -36,7 +36,7 @@ class ThreadRanks : public Ranks {
   double largest(double x) const override {
     return extreme(x, [](double a, double b) { return std::max(a, b); });
   }
-  void from_first(void* x, std::size_t bytes) const override {
+  void broadcast_from_root(void* x, std::size_t bytes) const override {
     std::vector<char> found(bytes);
     bool first = true;
     meet(x, [&](const void* of) {

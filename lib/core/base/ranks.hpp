@@ -41,7 +41,7 @@ class Ranks {
   virtual void sum(double* x, std::size_t n) const = 0;
   virtual double smallest(double x) const = 0;
   virtual double largest(double x) const = 0;
-  virtual void from_first(void* x, std::size_t bytes) const = 0;  // what rank 0 has
+  virtual void broadcast_from_root(void* x, std::size_t bytes) const = 0;  // what rank 0 has
   // Into parts that share few facets, by METIS: the rank of each cell. nodes: (n_cells, per_cell)
   virtual std::vector<int> divide(const std::vector<int>& nodes, int per_cell,
                                   int n_nodes) const = 0;
@@ -60,11 +60,11 @@ inline Ranks*& ranks() {
 }
 
 // Thrown on the other ranks where rank 0 has failed, which says why.
-struct EndedByFirst {};
+struct EndedByRoot {};
 
 // Work of rank 0, which may throw, and whose answer all take; ranks: nullptr: alone.
 template <class Work>
-bool by_first(const Ranks* ranks, Work work) {
+bool on_root_rank(const Ranks* ranks, Work work) {
   if (!ranks) return work();
   enum { no, yes, failed };
   int verdict = failed;
@@ -74,9 +74,9 @@ bool by_first(const Ranks* ranks, Work work) {
     } catch (...) {
       thrown = std::current_exception();
     }
-  ranks->from_first(&verdict, sizeof verdict);
+  ranks->broadcast_from_root(&verdict, sizeof verdict);
   if (thrown) std::rethrow_exception(thrown);
-  if (verdict == failed) throw EndedByFirst();
+  if (verdict == failed) throw EndedByRoot();
   return verdict == yes;
 }
 

@@ -188,7 +188,7 @@ bool PressureSchur::factorize_between(const std::vector<double>& scaled, const V
       lower.insert(lower.end(), whole.col(j).data() + j, whole.col(j).data() + n);
     positive = solver_between_->factorize(lower);
   }
-  ranks.from_first(&positive, sizeof positive);
+  ranks.broadcast_from_root(&positive, sizeof positive);
   return positive != 0;
 }
 
@@ -210,7 +210,7 @@ VecX PressureSchur::solve(const VecX& g) const {
     ranks.sum(right.data(), static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) right[i] += g[between_.cells[i]];
     if (ranks.first()) right = solver_between_->solve(right);
-    ranks.from_first(right.data(), static_cast<std::size_t>(n) * sizeof(double));
+    ranks.broadcast_from_root(right.data(), static_cast<std::size_t>(n) * sizeof(double));
   }
   VecX out = VecX::Zero(g.size());
   if (solver_ && n > 0) {

@@ -149,7 +149,7 @@ RunEnd Run::follow(const RunListener& listener) {
       end.at = told(listener, t, taken, next, report, end);
       return end.at == RunEnd::At::the_end;
     };
-    return by_first(shared_by(), record) && (signal = signal_of(shared_by())) == 0;
+    return on_root_rank(shared_by(), record) && (signal = signal_of(shared_by())) == 0;
   };
   end.path =
       load_path(path, statics.accepted().t, increment_, reduction.scene().stops, attempt, accepted);

@@ -62,18 +62,18 @@ int signal_of(const Ranks* ranks) {
 
 bool share(const Ranks& ranks, std::optional<Resumed>& resumed, const BodyState& shape) {
   int some = resumed.has_value();
-  ranks.from_first(&some, sizeof some);
+  ranks.broadcast_from_root(&some, sizeof some);
   if (!some) return false;
   if (!ranks.first()) resumed = Resumed{shape, shape, 0};
   const auto tell = [&](double& x) {
-    ranks.from_first(&x, sizeof x);
+    ranks.broadcast_from_root(&x, sizeof x);
   };
   for (BodyState* state : {&resumed->now, &resumed->before}) {
     tell(state->t);
     tell(state->travel);
-    ranks.from_first(state->u.data(), static_cast<std::size_t>(state->u.size()) * sizeof(double));
+    ranks.broadcast_from_root(state->u.data(), static_cast<std::size_t>(state->u.size()) * sizeof(double));
     for (std::vector<Vec3>& reactions : state->r)
-      ranks.from_first(reactions.data(), reactions.size() * sizeof(Vec3));
+      ranks.broadcast_from_root(reactions.data(), reactions.size() * sizeof(Vec3));
   }
   tell(resumed->increment);
   return true;

@@ -33,7 +33,7 @@ class World : public Ranks {
   }
   double smallest(double x) const override { return of_all(x, MPI_MIN); }
   double largest(double x) const override { return of_all(x, MPI_MAX); }
-  void from_first(void* x, std::size_t bytes) const override {
+  void broadcast_from_root(void* x, std::size_t bytes) const override {
     constexpr std::size_t most = 1u << 30;
     for (std::size_t at = 0; at < bytes; at += most)
       MPI_Bcast(static_cast<char*>(x) + at, static_cast<int>(std::min(most, bytes - at)), MPI_BYTE,
@@ -56,9 +56,9 @@ class World : public Ranks {
       code =
           METIS_PartMeshDual(&n_cells, &points, begins.data(), of.data(), nullptr, nullptr, &shared,
                              &parts, nullptr, nullptr, &edges, part.data(), of_node.data());
-    from_first(&code, sizeof code);
+    broadcast_from_root(&code, sizeof code);
     if (code != METIS_OK) throw std::runtime_error("METIS cannot divide the mesh");
-    from_first(part.data(), part.size() * sizeof(idx_t));
+    broadcast_from_root(part.data(), part.size() * sizeof(idx_t));
     return {part.begin(), part.end()};
   }
 
