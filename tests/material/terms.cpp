@@ -228,8 +228,8 @@ TEST_CASE(
   const LogarithmicVolume logarithmic{2e6};
   const SimoTaylorVolume simo_taylor{2e6};
   for (double x : {1e-12, -1e-9, 3e-7, -1e-4}) {
-    CHECK(logarithmic.of_change(x).W == near(1e6 * x * x * (1 - x), 2 * x * x + 1e-15));
-    CHECK(simo_taylor.of_change(x).W == near(1e6 * x * x * (1 - x / 3), 2 * x * x + 1e-15));
+    CHECK(logarithmic.at_volume_change(x).W == near(1e6 * x * x * (1 - x), 2 * x * x + 1e-15));
+    CHECK(simo_taylor.at_volume_change(x).W == near(1e6 * x * x * (1 - x / 3), 2 * x * x + 1e-15));
   }
   for (double x : {0.0999999, 0.1000001, -0.0999999, -0.1000001})
     CHECK(minus_its_logarithm(x) == near(x - std::log1p(x), 1e-13));

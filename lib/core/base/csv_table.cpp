@@ -172,7 +172,7 @@ bool all_numbers(const CsvRow& row) {
                      [](const CsvCell& c) { return digits_of(c.text).number; });
 }
 
-std::optional<char> told_separator(const std::vector<CsvLine>& lines) {
+std::optional<char> declared_separator(const std::vector<CsvLine>& lines) {
   if (lines.empty() || lines[0].text.size() != 5) return std::nullopt;
   std::string word = lines[0].text.substr(0, 4);
   std::transform(word.begin(), word.end(), word.begin(),
@@ -181,21 +181,22 @@ std::optional<char> told_separator(const std::vector<CsvLine>& lines) {
   return std::nullopt;
 }
 
-struct Beginning {
+struct HeaderPosition {
   CsvRow header;
   std::size_t next = 0;  // the line after it
   char separator = ',';
 };
 
 // the names as the caller knows them, in any dialect
-std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines,
-                                         const std::string& separators, const CsvReading& reading) {
+std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
+                                          const std::string& separators,
+                                          const CsvReading& reading) {
   if (!reading.is_header) return std::nullopt;
   for (char separator : separators)
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (!lines[i].comment)
         if (CsvRow row = row_of(lines[i], separator); reading.is_header(row.cells))
-          return Beginning{std::move(row), i + 1, separator};
+          return HeaderPosition{std::move(row), i + 1, separator};
   // a comment among those before the first numbers
   std::size_t first = 0;
   while (first < lines.size() && lines[first].comment) ++first;
@@ -203,12 +204,12 @@ std::optional<Beginning> known_beginning(const std::vector<CsvLine>& lines,
     for (std::size_t i = first;
          i-- > 0 && first < lines.size() && all_numbers(row_of(lines[first], separator));)
       if (CsvRow row = commented_row(lines[i], separator); reading.is_header(row.cells))
-        return Beginning{std::move(row), first, separator};
+        return HeaderPosition{std::move(row), first, separator};
   return std::nullopt;
 }
 
-Beginning first_beginning(const std::vector<CsvLine>& lines, const std::string& separators,
-                          const std::string& name) {
+HeaderPosition first_header(const std::vector<CsvLine>& lines, const std::string& separators,
+                            const std::string& name) {
   std::vector<std::size_t> plain;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].comment) plain.push_back(i);
@@ -381,7 +382,8 @@ bool is_unit(const std::string& text) {
 }
 
 // Where the line of names is repeated: the numbers of these lines among those that count.
-std::vector<std::size_t> repeated_names(const std::vector<CsvLine>& lines, const Beginning& begin) {
+std::vector<std::size_t> repeated_names(const std::vector<CsvLine>& lines,
+                                        const HeaderPosition& begin) {
   std::vector<std::size_t> found;
   const auto same = [](const CsvCell& a, const CsvCell& b) {
     return a.text == b.text;
@@ -413,7 +415,7 @@ bool begins_with_text(const CsvRow& row) {
 }
 
 // Whether the rows of a table begin with a text, such as the name of a protocol.
-bool rows_begin_with_text(const std::vector<CsvLine>& lines, const Beginning& begin) {
+bool rows_begin_with_text(const std::vector<CsvLine>& lines, const HeaderPosition& begin) {
   for (std::size_t i = begin.next; i < lines.size(); ++i) {
     const CsvRow row = row_of(lines[i], begin.separator);
     if (!lines[i].comment && has_numbers(row)) {
@@ -425,7 +427,7 @@ bool rows_begin_with_text(const std::vector<CsvLine>& lines, const Beginning& be
 
 // Whether a line belongs to what a machine writes between two blocks: it begins with a text and
 // cannot be a row of the table.
-bool is_between_blocks(const CsvLine& line, const Beginning& begin, bool text_rows) {
+bool is_between_blocks(const CsvLine& line, const HeaderPosition& begin, bool text_rows) {
   CsvRow row = row_of(line, begin.separator);
   drop_empty_end(row.cells, 1);
   if (!begins_with_text(row)) {
@@ -456,14 +458,14 @@ CsvTable parse_table(const std::string& text, const std::string& shown_name,
   table.name = shown_name;
   std::vector<CsvLine> lines = lines_of(text, shown_name);
   std::string separators = "\t;, ";
-  if (const auto told = told_separator(lines)) {
+  if (const auto told = declared_separator(lines)) {
     separators = *told;
     lines.erase(lines.begin());
   }
-  std::optional<Beginning> known = known_beginning(lines, separators, reading);
+  std::optional<HeaderPosition> known = find_header(lines, separators, reading);
   const bool known_header = known.has_value();
-  const Beginning begin =
-      known ? std::move(*known) : first_beginning(lines, separators, shown_name);
+  const HeaderPosition begin =
+      known ? std::move(*known) : first_header(lines, separators, shown_name);
   table.header = begin.header;
   drop_empty_end(table.header.cells, 1);
 

@@ -175,7 +175,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, Input
           "the path of a file, relative to this one", m.hint);
 }
 
-void say_unknown(const Tree::Entry& entry, const std::string& path,
+void report_unknown_key(const Tree::Entry& entry, const std::string& path,
                  const std::vector<std::string>& known, Findings& f) {
   // `radius: 2,5` in braces is the key `radius` with 2, and a key `5` without a value
   const bool digits =

@@ -55,7 +55,7 @@ long long read_whole(const Tree& tree, const std::string& path, const Member& m,
 int read_word(const Tree& tree, const std::string& path, const Member& m,
               const std::vector<std::string>& words, Findings& f,
               const std::vector<FormerWord>& former = {});  // -1: none
-void say_unknown(const Tree::Entry& entry, const std::string& path,
+void report_unknown_key(const Tree::Entry& entry, const std::string& path,
                  const std::vector<std::string>& known, Findings& f);
 [[noreturn]] void throw_sorted(std::vector<Error> errors);  // by place
 bool is_name(const std::string& name);  // may stand in file names, HDF5 paths and paths of keys
@@ -101,7 +101,7 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
   for (const Tree::Entry& entry : tree.map)
     if (std::find(known.begin(), known.end(), entry.key) == known.end() &&
         std::find(former.begin(), former.end(), entry.key) == former.end())
-      say_unknown(entry, path, known, f);
+      report_unknown_key(entry, path, known, f);
   if constexpr (Complaining<T>) {
     if (f.errors.size() > before) return;
     for (const Complaint& c : out.complaints()) {
@@ -132,7 +132,7 @@ bool read_alternative(const Tree::Entry& entry, const std::string& path, const M
     read_value(entry.value, join(path, entry.key), m, alternative, f);
     out = alternative;
   });
-  if (!found) say_unknown(entry, path, alternatives<Choice>(), f);
+  if (!found) report_unknown_key(entry, path, alternatives<Choice>(), f);
   return found;
 }
 
@@ -159,7 +159,7 @@ void read_choice(const Tree& tree, const std::string& path, const Member& m, Cho
   const std::vector<std::string> known = alternatives<Choice>();
   for (const Tree::Entry* entry : entries)  // a misspelt key says more than their number
     if (std::find(known.begin(), known.end(), entry->key) == known.end())
-      say_unknown(*entry, path, known, f);
+      report_unknown_key(*entry, path, known, f);
   if (f.errors.size() == before)
     f.say(tree.place, path, "found " + std::to_string(entries.size()) + " keys",
           type_words<Choice>(m), m.hint);

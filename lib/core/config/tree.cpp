@@ -46,7 +46,7 @@ std::vector<PathStep> split_path(const std::string& path) {
 
 namespace {
 
-bool lies_under_others(const Tree& one, const std::vector<Tree::Entry>& all) {
+bool is_overridden(const Tree& one, const std::vector<Tree::Entry>& all) {
   return std::any_of(all.begin(), all.end(), [&](const Tree::Entry& e) {
     return std::countr_zero(e.value.layers) < std::countr_zero(one.layers);
   });
@@ -85,7 +85,7 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
         at->map.push_back({step.key, made});
       }
       Tree* next = const_cast<Tree*>(at->find(step.key));
-      if (lies_under_others(*next, at->map))
+      if (is_overridden(*next, at->map))
         next->set_later = true;  // what lies over it may have replaced it
       at = next;
     }

@@ -9,7 +9,7 @@ namespace langer {
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  blas::need_buffers();
+  blas::check_buffers();
   blas::set_threads(std::max(1, threads));
   cholmod_start(&s.common);
   s.common.print = 0;

@@ -19,7 +19,7 @@ struct LogarithmicVolume {
   }
   // of J - 1, without cancellation
   template <class T>
-  Energy<T> of_change(T J_minus_1) const {
+  Energy<T> at_volume_change(T J_minus_1) const {
     using std::log1p;
     const T L = log1p(J_minus_1);
     const T inverse = 1.0 / (1.0 + J_minus_1);
@@ -28,7 +28,7 @@ struct LogarithmicVolume {
   }
   template <class T>
   Energy<T> operator()(T J) const {
-    return of_change(T(J - 1.0));
+    return at_volume_change(T(J - 1.0));
   }
 };
 

@@ -117,14 +117,14 @@ namespace {
 // What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H =
 // d2W/dC_bar2
 //   dW/dC = I3^(-1/3) (G - (G:C)/3 C^-1), as of a term with M = G;  d2W/dC2 = that term's + Q^T H Q,  Q = dC_bar/dC
-struct OfStretches {
+struct StretchTerms {
   double W = 0;
   Vec6 G = Vec6::Zero();
   Mat6 QHQ = Mat6::Zero();
 };
 
-OfStretches of_stretches(const Ogden& law, const Invariants& v, bool with_tangent) {
-  OfStretches s;
+StretchTerms stretch_terms(const Ogden& law, const Invariants& v, bool with_tangent) {
+  StretchTerms s;
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(tensor(v.m * v.C));
   const Vec3& e = eigen.eigenvalues();
   const Mat3& n = eigen.eigenvectors();
@@ -210,7 +210,7 @@ Response isochoric(const Material& material, const Invariants& v, std::span<cons
                    square(factors.fibres * e.ddW, dlinear_bar_dC(v, family.M));
                  },
                  [&](const Ogden& law) {
-                   const OfStretches s = of_stretches(law, v, C_inverse_product);
+                   const StretchTerms s = stretch_terms(law, v, C_inverse_product);
                    r.W += factors.W_matrix * s.W;
                    M += factors.matrix * s.G;
                    if (C_inverse_product) r.D += (4 * factors.matrix) * s.QHQ;

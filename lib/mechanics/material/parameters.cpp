@@ -61,7 +61,7 @@ void collect(T& object, const std::string& path, List& list) {
 
 // Two of one word that are not one quantity: the number of a law takes the law's name before its
 // own (exp_pow_alpha, beside the angle alpha of its family).
-void tell_apart(List& list) {
+void make_names_unique(List& list) {
   const auto depth = [](const MaterialParameter& p) {
     return std::count(p.key.begin(), p.key.end(), '.');
   };
@@ -84,7 +84,7 @@ void tell_apart(List& list) {
 std::vector<MaterialParameter> parameters(Material& material) {
   List list;
   collect(material, "", list);
-  tell_apart(list);
+  make_names_unique(list);
   std::map<std::string, int> count;
   for (MaterialParameter& p : list)
     if (const int n = ++count[p.name]; n > 1) p.name += "_" + std::to_string(n);

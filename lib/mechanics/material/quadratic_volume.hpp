@@ -17,12 +17,12 @@ struct QuadraticVolume {
   double bulk_modulus() const { return 2 / d; }  // [MPa]
   // as a function of J - 1, which the caller knows without cancellation
   template <class T>
-  Energy<T> of_change(T J_minus_1) const {
+  Energy<T> at_volume_change(T J_minus_1) const {
     return {J_minus_1 * J_minus_1 / d, 2 / d * J_minus_1, T{} + 2 / d};
   }
   template <class T>
   Energy<T> operator()(T J) const {
-    return of_change(T(J - 1.0));
+    return at_volume_change(T(J - 1.0));
   }
 };
 

@@ -35,7 +35,7 @@ struct SimoTaylorVolume {
   }
   // of J - 1, without cancellation
   template <class T>
-  Energy<T> of_change(T J_minus_1) const {
+  Energy<T> at_volume_change(T J_minus_1) const {
     const T x = J_minus_1;
     const T inverse = 1.0 / (1.0 + x);
     return {(0.25 * bulk_modulus) * (x * x + 2.0 * minus_its_logarithm(x)),
@@ -44,7 +44,7 @@ struct SimoTaylorVolume {
   }
   template <class T>
   Energy<T> operator()(T J) const {
-    return of_change(T(J - 1.0));
+    return at_volume_change(T(J - 1.0));
   }
 };
 

@@ -1,6 +1,6 @@
 // Laws of volume change: U(J), an alternative each. One more is its header and its name in the
 // list.
-//   of_change(J - 1) -> U, dU/dJ = mean stress p [MPa], d2U/dJ2;   at J = 1 the latter is the bulk modulus
+//   at_volume_change(J - 1) -> U, dU/dJ = mean stress p [MPa], d2U/dJ2;   at J = 1 the latter is the bulk modulus
 #pragma once
 
 #include <variant>
@@ -17,7 +17,7 @@ using Volume = std::variant<QuadraticVolume, LogarithmicVolume, SimoTaylorVolume
 template <class T>
 Energy<T> volume_energy(const Volume& volume, const T& J_minus_1) {
   return std::visit(
-      [&](const auto& law) { return law.of_change(nan_outside_domain(law, J_minus_1)); }, volume);
+      [&](const auto& law) { return law.at_volume_change(nan_outside_domain(law, J_minus_1)); }, volume);
 }
 
 inline double bulk_modulus(const Volume& volume) {

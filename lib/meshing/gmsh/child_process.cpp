@@ -60,7 +60,7 @@ void limit(int resource, rlim_t most) {
 }
 
 // Signals, descriptors, environment and limits of a process that is on its own.
-void leave_parent(int parent, int answer) {
+void isolate_process(int parent, int answer) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it ended before that
   std::signal(SIGINT, SIG_IGN);       // the terminal sends it to both; the parent decides
@@ -100,7 +100,7 @@ void leave_parent(int parent, int answer) {
   };
   std::string path;
   try {
-    leave_parent(parent, answer);
+    isolate_process(parent, answer);
     prepare();
     if (!file.empty()) path = private_copy(file);
   } catch (const std::exception& error) {

@@ -79,7 +79,7 @@ class Reading {
                   const std::vector<std::string>& known) {
     for (const auto& entry : tree.map)
       if (std::find(known.begin(), known.end(), entry.key) == known.end())
-        say_unknown(entry, path, known, f);
+        report_unknown_key(entry, path, known, f);
   }
   const Tree* need(const Tree& tree, const std::string& path, const std::string& key,
                    const std::string& what) {

@@ -16,7 +16,7 @@ namespace langer::blas {
 
 // OpenBLAS takes a buffer of 128 MB for each of its threads, and where there is none asks again and
 // again, for ever: whether there is memory for them is asked beforehand.
-void need_buffers() {
+void check_buffers() {
   static const bool once = [] {
     const std::size_t bytes = (std::size_t{136} << 20) *
                               static_cast<std::size_t>(std::max(1, openblas_get_num_threads()));

@@ -20,7 +20,7 @@ F* loaded(const char* name) {
 
 }  // namespace
 
-void need_buffers() {}
+void check_buffers() {}
 
 void set_threads(int n) {
   asked = n;
