@@ -236,9 +236,9 @@ TEST_CASE("a shape becomes another by a mirror or a turn exactly where the other
           },
           b);
     CAPTURE(n);
-    CHECK(becomes(a, b, op) == !spoiled);
-    CHECK(becomes(b, a, op) == !spoiled);
-    CHECK_FALSE(becomes(a, Sphere{0.1, {50, 0, 0}}, op));
+    CHECK(maps_onto(a, b, op) == !spoiled);
+    CHECK(maps_onto(b, a, op) == !spoiled);
+    CHECK_FALSE(maps_onto(a, Sphere{0.1, {50, 0, 0}}, op));
     double largest = 0;
     for (int k = 0; k < 40; ++k) {
       const Vec3 x(u(random), u(random), u(random));
@@ -476,22 +476,22 @@ TEST_CASE("an aperture is the image of another only with the same hole, edge, fa
   const Isometry mirror{Vec3(-1, 1, 1).asDiagonal(), Vec3::Zero()};
   const Aperture left{2, 0.5, {-1, 4, 0.5}, {0.2, 1, 0.1}};
   const Aperture right{2, 0.5, {1, 4, 0.5}, {-0.2, 1, 0.1}};
-  CHECK(becomes(left, right, mirror));
-  CHECK(becomes(right, left, mirror));
-  CHECK_FALSE(becomes(left, left, mirror));
+  CHECK(maps_onto(left, right, mirror));
+  CHECK(maps_onto(right, left, mirror));
+  CHECK_FALSE(maps_onto(left, left, mirror));
 
   Aperture other = right;
   other.radius = 2.1;
-  CHECK_FALSE(becomes(left, other, mirror));
+  CHECK_FALSE(maps_onto(left, other, mirror));
   other = right;
   other.edge = 0.6;
-  CHECK_FALSE(becomes(left, other, mirror));
+  CHECK_FALSE(maps_onto(left, other, mirror));
   other = right;
   other.face[2] = 0.6;
-  CHECK_FALSE(becomes(left, other, mirror));
+  CHECK_FALSE(maps_onto(left, other, mirror));
   other = right;
   other.into = {0.2, 1, 0.1};
-  CHECK_FALSE(becomes(left, other, mirror));
+  CHECK_FALSE(maps_onto(left, other, mirror));
 }
 
 TEST_CASE("on the axis of a hole the wall is as far as its radius, whichever way the axis points") {

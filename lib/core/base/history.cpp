@@ -15,7 +15,7 @@ double factor_rate(const LoadFactor& factor, double t) {
   return 0;
 }
 
-bool History::goes_on(double before, double now, double next) const {
+bool History::keeps_rate(double before, double now, double next) const {
   if (!factor) return true;
   const double rate = (at(next) - at(now)) / (next - now);
   const double last = (at(now) - at(before)) / (now - before);

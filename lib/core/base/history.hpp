@@ -51,7 +51,7 @@ struct History {
   LoadFactor factor;
   double at(double t) const { return value * factor_at(factor, t); }
   double rate(double t) const { return value * factor_rate(factor, t); }
-  bool goes_on(double before, double now,
+  bool keeps_rate(double before, double now,
                double next) const;  // from now to next, at the mean rate that it had before
   friend bool operator==(const History& a, const History& b) {
     return a.value == b.value && same_factor(a.factor, b.factor);

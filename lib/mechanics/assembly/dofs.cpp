@@ -7,9 +7,9 @@
 
 namespace langer {
 
-bool Prescribed::goes_on(double before, double now, double next) const {
+bool Prescribed::keeps_rate(double before, double now, double next) const {
   const auto steady = [&](const History& h) {
-    return h.goes_on(before, now, next);
+    return h.keeps_rate(before, now, next);
   };
   return steady({value, factor}) && (!turn || steady(turn->angle));
 }

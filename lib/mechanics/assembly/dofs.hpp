@@ -43,7 +43,7 @@ struct Prescribed {
     return value * factor_rate(factor, t) + (turn ? turn->rate(t) : 0);
   }
   bool in_proportion() const { return !factor && !turn; }  // to t
-  bool goes_on(double before, double now,
+  bool keeps_rate(double before, double now,
                double next) const;  // at the rate that it had, or turning at that rate
   bool moves_as(const Prescribed& other) const {
     return value == other.value && same_factor(factor, other.factor) && turn == other.turn;

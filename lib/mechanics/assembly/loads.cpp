@@ -21,7 +21,7 @@ bool Loads::moves(double t0, double t) const {
   });
 }
 
-bool Loads::goes_on(double before, double now, double next) const {
+bool Loads::keeps_rate(double before, double now, double next) const {
   return std::all_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
     const double f = factor_at(load.factor, now);
     const double rate = (factor_at(load.factor, next) - f) / (next - now);

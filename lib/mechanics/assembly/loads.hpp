@@ -29,7 +29,7 @@ class Loads {
   bool empty() const { return loads_.empty(); }
   bool follow() const;                    // some of them are pressures
   bool moves(double t0, double t) const;  // some load changes from t0 to t
-  bool goes_on(double before, double now,
+  bool keeps_rate(double before, double now,
                double next) const;  // at the same rates in both intervals
 
   // What acts on each facet at t, one row per node of its cell [N], and for a pressure -d force/dx,

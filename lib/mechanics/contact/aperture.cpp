@@ -24,9 +24,10 @@ ShapePoint Aperture::at(const Vec3& x) const {
   return round_edged({a, outward, rho, Wall::faces_axis}, side, end, edge);
 }
 
-bool Aperture::becomes(const Aperture& other, const Isometry& op) const {
-  return radius == other.radius && edge == other.edge && goes_to(vec(face), vec(other.face), op) &&
-         turns_to(direction(into), direction(other.into), op);
+bool Aperture::maps_onto(const Aperture& other, const Isometry& op) const {
+  return radius == other.radius && edge == other.edge &&
+         maps_point(vec(face), vec(other.face), op) &&
+         maps_direction(direction(into), direction(other.into), op);
 }
 
 Outline Aperture::outline(const Shown& shown) const {

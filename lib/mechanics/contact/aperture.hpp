@@ -25,7 +25,7 @@ struct Aperture {
   // the plate is a core (hole wider by the edge, starting one edge behind the face) thickened by
   // the edge radius
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Aperture& other, const Isometry& op) const;
+  bool maps_onto(const Aperture& other, const Isometry& op) const;
   Outline outline(const Shown& shown)
       const;  // the wall, as high as the hole is wide, and the face as far as the picture goes
   double half_width() const { return std::numeric_limits<double>::infinity(); }

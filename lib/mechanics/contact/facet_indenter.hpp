@@ -56,7 +56,7 @@ struct Facets {
     v(&Facets::move, "move", unit::mm, "added to the file's positions after scaling");
   }
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Facets&, const Isometry&) const {
+  bool maps_onto(const Facets&, const Isometry&) const {
     return false;
   }  // triangles are not compared
   Outline outline(const Shown& shown)

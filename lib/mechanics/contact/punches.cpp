@@ -23,9 +23,10 @@ ShapePoint Cylinder::at(const Vec3& x) const {
   return round_edged({a, outward, rho, Wall::faces_away}, side, end, edge);
 }
 
-bool Cylinder::becomes(const Cylinder& other, const Isometry& op) const {
-  return radius == other.radius && edge == other.edge && goes_to(vec(face), vec(other.face), op) &&
-         turns_to(direction(into), direction(other.into), op);
+bool Cylinder::maps_onto(const Cylinder& other, const Isometry& op) const {
+  return radius == other.radius && edge == other.edge &&
+         maps_point(vec(face), vec(other.face), op) &&
+         maps_direction(direction(into), direction(other.into), op);
 }
 
 // A cylinder that was never read from a configuration may have no rounding.
@@ -101,10 +102,10 @@ ShapePoint Ellipsoid::at(const Vec3& x) const {
   return p;
 }
 
-bool Ellipsoid::becomes(const Ellipsoid& other, const Isometry& op) const {
+bool Ellipsoid::maps_onto(const Ellipsoid& other, const Isometry& op) const {
   const Mat3 H = vec(half_axes).cwiseProduct(vec(half_axes)).asDiagonal();
   const Mat3 image = vec(other.half_axes).cwiseProduct(vec(other.half_axes)).asDiagonal();
-  return goes_to(vec(centre), vec(other.centre), op) &&
+  return maps_point(vec(centre), vec(other.centre), op) &&
          (op.turn * H * op.turn.transpose() - image).norm() <= same_place * image.norm();
 }
 

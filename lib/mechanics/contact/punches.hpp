@@ -22,7 +22,7 @@ struct Cylinder {
   // the cylinder is a core (radius less edge, starting one edge behind the face) thickened by the
   // edge radius
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Cylinder& other, const Isometry& op) const;
+  bool maps_onto(const Cylinder& other, const Isometry& op) const;
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return Vec3(vec(face) + edge * direction(into)); }
@@ -39,7 +39,7 @@ struct Ellipsoid {
     v(&Ellipsoid::centre, "centre", unit::mm, "centre before it moves", required);
   }
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Ellipsoid& other, const Isometry& op) const;
+  bool maps_onto(const Ellipsoid& other, const Isometry& op) const;
   Outline outline(const Shown& shown) const;
   double half_width() const;
   std::optional<Vec3> inside() const { return vec(centre); }

@@ -13,8 +13,8 @@ ShapePoint Sphere::at(const Vec3& x) const {
   return {distance - radius, n, tangent_projection(n) / distance};
 }
 
-bool Sphere::becomes(const Sphere& other, const Isometry& op) const {
-  return radius == other.radius && goes_to(vec(centre), vec(other.centre), op);
+bool Sphere::maps_onto(const Sphere& other, const Isometry& op) const {
+  return radius == other.radius && maps_point(vec(centre), vec(other.centre), op);
 }
 
 ShapePoint Plane::at(const Vec3& x) const {
@@ -22,10 +22,10 @@ ShapePoint Plane::at(const Vec3& x) const {
   return {n.dot(x - vec(point)), n, Mat3::Zero()};
 }
 
-bool Plane::becomes(const Plane& other, const Isometry& op) const {
+bool Plane::maps_onto(const Plane& other, const Isometry& op) const {
   const Vec3 p = vec(other.point);
   const Vec3 n = direction(other.outward);
-  return turns_to(direction(outward), n, op) &&
+  return maps_direction(direction(outward), n, op) &&
          std::abs(n.dot(op(vec(point)) - p)) <= same_place * (1 + p.norm());
 }
 
@@ -69,16 +69,16 @@ ShapePoint shape_at(const Indenter& shape, const Vec3& x) {
   return std::visit([&](const auto& s) { return s.at(x); }, shape);
 }
 
-bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op) {
+bool maps_onto(const Indenter& shape, const Indenter& other, const Isometry& op) {
   return std::visit(
       [&]<class S>(const S& s) {
         const S* image = std::get_if<S>(&other);
-        return image && s.becomes(*image, op);
+        return image && s.maps_onto(*image, op);
       },
       shape);
 }
 
-bool unchanged_by(const Indenter& shape, const Isometry& op) { return becomes(shape, shape, op); }
+bool unchanged_by(const Indenter& shape, const Isometry& op) { return maps_onto(shape, shape, op); }
 
 // A shape that a rotation by one radian leaves unchanged is unchanged by every rotation: the
 // multiples of one radian are dense on the circle.

@@ -24,7 +24,7 @@ struct Sphere {
     v(&Sphere::centre, "centre", unit::mm, "centre before it moves", required);
   }
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Sphere& other, const Isometry& op) const;
+  bool maps_onto(const Sphere& other, const Isometry& op) const;
   Outline outline(const Shown& shown) const;
   double half_width() const { return radius; }
   std::optional<Vec3> inside() const { return vec(centre); }
@@ -43,7 +43,7 @@ struct Plane {
       required);
   }
   ShapePoint at(const Vec3& x) const;
-  bool becomes(const Plane& other, const Isometry& op) const;
+  bool maps_onto(const Plane& other, const Isometry& op) const;
   Outline outline(const Shown& shown) const;
   double half_width() const { return std::numeric_limits<double>::infinity(); }
   std::optional<Vec3> inside() const { return std::nullopt; }
@@ -63,7 +63,7 @@ static_assert(all_are_shapes(static_cast<const Indenter*>(nullptr)),
               "contact/shape.hpp lists the members of a shape");
 
 ShapePoint shape_at(const Indenter& shape, const Vec3& x);
-bool becomes(const Indenter& shape, const Indenter& other, const Isometry& op);
+bool maps_onto(const Indenter& shape, const Indenter& other, const Isometry& op);
 bool unchanged_by(const Indenter& shape, const Isometry& op);
 bool is_revolved_about(const Line& line, const Indenter& shape);
 

@@ -7,11 +7,11 @@ namespace langer {
 
 Vec3 Isometry::operator()(const Vec3& x) const { return centre + turn * (x - centre); }
 
-bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op) {
+bool maps_point(const Vec3& x, const Vec3& y, const Isometry& op) {
   return (op(x) - y).norm() <= same_place * (1 + y.norm());
 }
 
-bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op) {
+bool maps_direction(const Vec3& d, const Vec3& e, const Isometry& op) {
   return (op.turn * d - e).norm() <= same_place * e.norm();
 }
 

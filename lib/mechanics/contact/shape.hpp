@@ -4,7 +4,7 @@
 //                       normal: gradient of the gap, from the shape to the body
 //                       curvature: dn/dx (3,3), symmetric, curvature n = 0, of the surface of
 //                       constant gap through x [1/mm]
-//   becomes(other, op)  whether op maps the shape onto `other`; false if this is not known
+//   maps_onto(other, op)  whether op maps the shape onto `other`; false if this is not known
 //   outline(shown)      the surface as polygons, for pictures
 //   half_width()        half the width of a bounded shape, infinite for an unbounded one [mm]
 //   inside()            a point inside a bounded shape
@@ -54,14 +54,14 @@ struct Ball {
 };
 
 inline constexpr double same_place = 1e-9;  // relative
-bool goes_to(const Vec3& x, const Vec3& y, const Isometry& op);
-bool turns_to(const Vec3& d, const Vec3& e, const Isometry& op);
+bool maps_point(const Vec3& x, const Vec3& y, const Isometry& op);
+bool maps_direction(const Vec3& d, const Vec3& e, const Isometry& op);
 
 template <class S>
 concept Shape = requires(const S& shape, const Vec3& x, const Isometry& op, const Shown& shown) {
   { S::key } -> std::convertible_to<const char*>;
   { shape.at(x) } -> std::same_as<ShapePoint>;
-  { shape.becomes(shape, op) } -> std::same_as<bool>;
+  { shape.maps_onto(shape, op) } -> std::same_as<bool>;
   { shape.outline(shown) } -> std::same_as<Outline>;
   { shape.half_width() } -> std::same_as<double>;
   { shape.inside() } -> std::same_as<std::optional<Vec3>>;

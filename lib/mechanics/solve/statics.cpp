@@ -71,7 +71,7 @@ void Statics::begin(double t) {
                       controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
   // then the last movement does not go on
   const bool rests = motion(now_.t) == 0 && !equilibrium_.loads().moves(now_.t, t) && !pushed;
-  if (const double last = now_.t - before_.t; last > 0 && !rests && goes_on())
+  if (const double last = now_.t - before_.t; last > 0 && !rests && keeps_rate())
     extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) bring_to_touch();
   slip_from_touch();
@@ -79,12 +79,12 @@ void Statics::begin(double t) {
 }
 
 // Behind a kink of what moves nodes the last movement says nothing.
-bool Statics::goes_on() const {
+bool Statics::keeps_rate() const {
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    if (!p.in_proportion() && !p.goes_on(before_.t, now_.t, t_)) return false;
+    if (!p.in_proportion() && !p.keeps_rate(before_.t, now_.t, t_)) return false;
   for (const RigidContact& contact : contacts_)
-    if (contact.rotation && !contact.rotation->angle.goes_on(before_.t, now_.t, t_)) return false;
-  return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
+    if (contact.rotation && !contact.rotation->angle.keeps_rate(before_.t, now_.t, t_)) return false;
+  return equilibrium_.loads().keeps_rate(before_.t, now_.t, t_);
 }
 
 void Statics::extrapolate(double s) {

@@ -131,7 +131,7 @@ class Statics {
 
  private:
   friend class StateTangent;   // solve/state_tangent.hpp
-  bool goes_on() const;        // imposed displacements, as in the last increment
+  bool keeps_rate() const;        // imposed displacements, as in the last increment
   void extrapolate(double s);  // by s times the last increment
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);

@@ -136,9 +136,10 @@ std::string broken_loads(const MeshImage& g, const Mesh& mesh, const Scene& scen
 
 bool same_motion(const std::vector<Waypoint>& a, const std::vector<Waypoint>& b,
                  const Isometry& op) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(),
-      [&](const Waypoint& p, const Waypoint& q) { return p.t == q.t && turns_to(p.to, q.to, op); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const Waypoint& p, const Waypoint& q) {
+                      return p.t == q.t && maps_direction(p.to, q.to, op);
+                    });
 }
 
 // Turns are no arrows: a mirror that leaves the axis in place turns the other way.
@@ -155,7 +156,7 @@ bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry&
 // what keeps b from being the image of a; empty where nothing
 std::string difference(const RigidContact& a, const RigidContact& b, const MeshImage& g,
                        const Isometry& op) {
-  if (!becomes(a.shape, b.shape, op))
+  if (!maps_onto(a.shape, b.shape, op))
     return fmt::format("the shape or place of the indenter \"{}\"", a.name);
   if (a.mu != b.mu) return fmt::format("the friction of the indenter \"{}\"", a.name);
   if (a.adhesion != b.adhesion) return fmt::format("the adhesion of the indenter \"{}\"", a.name);
