@@ -144,7 +144,7 @@ void name_points(Mesh& mesh, const Points& points) {
               {},
               "points." + name,
               fmt::format(
-                  "no node lies there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
+                  "no node is there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
                   (there - x).norm(), there[0], there[1], there[2]),
               "a point that the geometry has a node at",
               "move the point, or a radius or side of the geometry through it"});

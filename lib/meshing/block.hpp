@@ -74,7 +74,7 @@ struct Ring {
   double radius = 0;
   int cells = 1;
   static void fields(auto& v) {
-    v(&Ring::radius, "radius", unit::mm, "outer radius of the ring; nodes lie on it", required,
+    v(&Ring::radius, "radius", unit::mm, "outer radius of the ring; a circle of nodes", required,
       positive);
     v(&Ring::cells, "cells", unit::none, "cells along the radius", required, between(1, 1000));
   }

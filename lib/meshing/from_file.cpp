@@ -46,7 +46,7 @@ bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
 std::vector<Complaint> FromFile::complaints() const {
   const std::string kind = kind_of(file.path);
   if (kind == "msh" || kind == "inp") {
-    if (edge) return {{"edge", "found beside a mesh", "none: its cells are there", ""}};
+    if (edge) return {{"edge", "found together with a mesh", "no edge: the file has its own cells", ""}};
     return {};
   }
   if (kind == "step" || kind == "stp" || kind == "stl") {

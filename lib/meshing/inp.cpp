@@ -453,7 +453,7 @@ class Builder {
     }
     if (lost > 0) {
       notes_.push_back(fmt::format(
-          "left out: element set {}, as {} of its plane elements lie on no facet of a cell", name,
+          "left out: element set {}, as {} of its plane elements are on no facet of a cell", name,
           lost));
       return;
     }

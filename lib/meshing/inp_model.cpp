@@ -156,7 +156,7 @@ class ModelReader {
     const std::string type = upper_case(card_.value("TYPE"));
     if (const auto kind = inp_cell(type)) {
       if (model_.kind.theirs && kind->theirs != model_.kind.theirs) {
-        refuse_inp(card_.place, fmt::format("found elements {} beside {}", type, type_),
+        refuse_inp(card_.place, fmt::format("found elements {} together with {}", type, type_),
                    "cells of one kind");
       }
       model_.kind = *kind;

@@ -15,7 +15,7 @@ std::string quoted_name(const std::string& name) {
   if (name.find_first_of("\",\n\r*=") != std::string::npos)
     throw Failure(Exit::config, Error{{},
                                       "export",
-                                      "the name \"" + name + "\" cannot stand in an .inp file",
+                                      "the name \"" + name + "\" is not possible in an .inp file",
                                       "names without , \" * and =",
                                       ""});
   if (name.find(' ') == std::string::npos) return name;

@@ -86,7 +86,7 @@ class MeshBuilder {
     for (const MshElements& of : model.cells)
       if (!cell_of(of.type)) refuse("found cells of the kind " + of.name, expected, line_of(of, 0));
     if (model.cells.empty()) refuse("no cells", expected);
-    if (model.cells.size() > 1) refuse("hexahedra beside tetrahedra", expected);
+    if (model.cells.size() > 1) refuse("hexahedra together with tetrahedra", expected);
     return model.cells[0];
   }
 
@@ -145,7 +145,7 @@ class MeshBuilder {
       if (group.name.empty()) continue;
       if (!known.emplace(group.dim, group.name).second)
         refuse(fmt::format("two groups of {} have the name \"{}\"", kinds[group.dim], group.name),
-               "names of their own");
+               "different names");
     }
   }
 

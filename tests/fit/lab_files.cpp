@@ -122,7 +122,7 @@ TEST_CASE(
 
 TEST_CASE("what can be read in two ways is asked about, and the key that is named cures it") {
   const std::string thousands = "strain;nominal_stress_Pa\n1,234;1,500\n2,345;2,500\n";
-  holds(refusal(thousands), "l.csv:2:1: found 1,234, and no other number tells");
+  holds(refusal(thousands), "l.csv:2:1: found 1,234, and no other number shows");
   TestFormat f;
   f.decimal = DecimalSign::comma;
   CHECK(parse_tests(thousands, "l.csv", f)[0].first[0] == near(2.234));

@@ -262,5 +262,5 @@ TEST_CASE("an O-grid that cannot be is refused: order of radii, odd core, points
       ring("{half_width: 1, cells: 4}", "[{radius: 2, cells: 2}]", "points:\n  A: [2.1, 4, 0]\n"));
   CHECK(holds(
       off,
-      "mesh.yaml:10:3: points.A: no node lies there; the nearest is 0.1 mm away, at (2, 4, 0)"));
+      "mesh.yaml:10:3: points.A: no node is there; the nearest is 0.1 mm away, at (2, 4, 0)"));
 }

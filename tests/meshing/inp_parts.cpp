@@ -475,7 +475,7 @@ TEST_CASE("volumes of Gmsh keep its names where its groups do not divide the bod
   CHECK_FALSE(mesh.facet_sets.count("lost"));
   REQUIRE(notes.size() >= 1);
   CHECK(notes[0] ==
-        "left out: element set lost, as 1 of its plane elements lie on no facet of a cell");
+        "left out: element set lost, as 1 of its plane elements are on no facet of a cell");
 }
 
 TEST_CASE("shells on the surface mark its facets, and that their stiffness is lost is said") {

@@ -96,7 +96,7 @@ TEST_CASE(
   folder.write("part.yaml", "include: law.yaml\nmatrix: {yeoh: {a1: 0.5}}\n");
   const std::string told = said<Material>(folder.tree("part.yaml"));
   CAPTURE(told);
-  CHECK(told.find("part.yaml:2:1: matrix: found yeoh beside an included yeoh, neo_hooke") !=
+  CHECK(told.find("part.yaml:2:1: matrix: found yeoh together with an included yeoh, neo_hooke") !=
         std::string::npos);
   CHECK(told.find("[{yeoh: {...}}]") != std::string::npos);
   folder.write("cured.yaml", "include: law.yaml\nmatrix: [{yeoh: {a1: 0.5}}]\n");

@@ -26,7 +26,7 @@ expect_said("  low              81 nodes     64 facets")
 run(2 ${BIN}/langer-mesh own.yaml -o other.h5 --set "sets={left_side: {within: {plane: {axis: y, at: 0}}}}")
 expect_said("found the name of a set of the file")
 run(2 ${BIN}/langer-mesh own.yaml -o other.h5 --set "points={P: [0, 0.001, 0]}")
-expect_said("no node lies there; the nearest is")
+expect_said("no node is there; the nearest is")
 run(2 ${BIN}/langer-solve configs/solve/smoke.yaml --material configs/material/abdomen_hgo_yeoh.yaml -o x.h5
   --set "mesh={include: configs/mesh/smoke.yaml}" --set "mesh.export=[msh]")
 

@@ -291,9 +291,9 @@ DecimalSign decimal_sign(const CsvTable& table) {
         Exit::input,
         {{table.name, line_of_comma, comma.column},
          "",
-         fmt::format("found {}, and no other number tells whether its comma is a decimal one",
+         fmt::format("found {}, and no other number shows whether its comma is a decimal comma",
                      comma.text),
-         "numbers without a second reading",
+         "numbers with only one possible value",
          "in a fit, decimal: comma in the item of `data`; remove commas that separate thousands"});
   return DecimalSign::comma;
 }

@@ -85,7 +85,7 @@ template <class Point>
 void list_place(auto& v) {
   v(&Point::t, "t", unit::none, "place on the path, 0 to 1", Range{0, 1, false, true});
   v(&Point::s, "s", unit::s,
-    "in place of t, where path.seconds tells how long the path takes: since its beginning",
+    "instead of t, if path.seconds gives the duration of the path: time since its beginning",
     Range{0, std::numeric_limits<double>::infinity(), false, true});
 }
 // seconds: of the path, where it has a duration

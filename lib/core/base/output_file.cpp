@@ -93,7 +93,7 @@ int open_kept_file(const std::string& path) {
   if (known && S_ISREG(status.st_mode) && status.st_nlink <= 1) return fd;
   ::close(fd);
   if (known && S_ISREG(status.st_mode)) {
-    refuse(path, "is another name of a file that lies elsewhere (a hard link)",
+    refuse(path, "is a hard link to a file in another place",
            "remove it: a run would write into that file");
   }
   refuse(path, "is no plain file (a device, FIFO or socket)", "remove or rename it");

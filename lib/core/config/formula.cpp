@@ -14,7 +14,7 @@ std::vector<double> evaluate(const std::string& formula, const std::vector<Formu
   const auto refuse = [&](const std::string& found) {
     throw Failure(Exit::config,
                   Error{where, key, found, "a formula of x, y and z [mm] with one finite value",
-                        "for example \"30 + 2*x\"; sin and its like take radians"});
+                        "for example \"30 + 2*x\"; sin, cos and tan expect radians"});
   };
   std::vector<double> values;
   FormulaPoint at{0, 0, 0};

@@ -50,7 +50,7 @@ namespace schema {
 
 Tree included() {
   return object({{"description",
-                  word("a file, or a list of files, whose keys stand here; keys beside it win")},
+                  word("a file, or a list of files, whose keys are inserted here; keys next to it override them")},
                  {"anyOf", list({type("string"),
                                  object({{"type", word("array")}, {"items", type("string")}})})}});
 }

@@ -28,7 +28,7 @@ std::string_view without_plus(const Tree& tree) {
 
 std::string number_hint(const Tree& tree, const Member& m) {
   const std::string& s = tree.scalar;
-  if (tree.quoted) return "numbers stand without quotes";
+  if (tree.quoted) return "write numbers without quotes";
   const bool digit = !s.empty() && ((s[0] >= '0' && s[0] <= '9') || s[0] == '-' || s[0] == '.');
   if (digit && has_leading_zero(s)) return "leave out the leading zero";
   if (digit && s.find(',') != std::string::npos)
@@ -202,7 +202,7 @@ const Tree* find_member(const Tree& tree, const std::string& path, const Member&
   };
   if (given && depth(*given) == depth(*old)) {
     f.say(old->place, join(path, m.former),
-          fmt::format("found beside {}, which it is now called", m.key), "one of the two");
+          fmt::format("found together with {}, its new name", m.key), "one of the two");
     return given;
   }
   f.notice(old->place, path, m.former, m.key);
@@ -236,7 +236,7 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
   if (!later.empty() && later.size() < tree.map.size()) {
     const Entries there = those([](const Tree& t) { return !t.set_later; });
     f.say(later[0]->value.place, path, fmt::format("{} added to {}", words(later), words(there)),
-          "a value of what is there",
+          "a value of the alternative that is there",
           fmt::format("to replace it: --set '{}={{{}: {{...}}}}'", path, later[0]->key));
     return {};
   }
@@ -254,7 +254,7 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
         over.begin(), over.end(), [&](const Tree::Entry* e) { return e->value.layers >> layer; });
     if (others) break;
     f.say(
-        tree.place, path, fmt::format("found {} beside an included {}", words(over), words(under)),
+        tree.place, path, fmt::format("found {} together with an included {}", words(over), words(under)),
         "the alternatives that are included, with other numbers, or only others, which replace them",
         is_sum ? fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key)
                : "leave this key out of the included file");

@@ -156,7 +156,7 @@ class Builder : public YAML::EventHandler {
       map.drop = true;
     } else if (key == "<<") {
       errors.push_back({map.key_place, "", "found a merge key \"<<\"", "\"include: file\"",
-                        "keys beside `include` win over the included ones"});
+                        "keys next to `include` override the included ones"});
       map.drop = true;
     }
   }

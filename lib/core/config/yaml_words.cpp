@@ -130,7 +130,7 @@ YamlTrouble yaml_trouble(const std::string& text, int line, int column, const st
     if (!levels.empty() && !known) {
       const auto [row, k] = place(last, lines[last].indent);
       return {row, k,
-              fmt::format("indented by {} blanks; what stands above it by {}", lines[last].indent,
+              fmt::format("indented by {} blanks; the lines above it by {}", lines[last].indent,
                           words_of(levels)),
               "as many blanks as the keys that it belongs to",
               "a key deeper than its neighbours needs a line above it that ends in a colon"};

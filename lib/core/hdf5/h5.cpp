@@ -323,8 +323,8 @@ File File::open(const std::string& path) {
   if (seal == Seal::broken)
     refuse("damaged: its content does not fit its checksum", "make it again");
   if (seal == Seal::none && path.ends_with(".part") && !being_written(path))
-    refuse("was left by a run that was killed: nothing tells whether it is whole",
-           "run the same command again: it goes on from the steps that are whole");
+    refuse("was left by a run that was killed: it may be incomplete",
+           "run the same command again: it continues from the complete steps");
   auto file = std::make_shared<OpenFile>();
   file->path = file->current = path;
   file->size = std::filesystem::file_size(path, none);

@@ -86,7 +86,7 @@ std::vector<Complaint> Material::complaints() const {
   std::vector<Complaint> found;
   if (viscous && viscous->empty())
     found.push_back({"viscous", "found an empty list", "at least {tau: 1, gamma: 0.5}",
-                     "without the key the law is elastic"});
+                     "without the key the material is elastic"});
   complain_of_strengths(*this, found);
   if (!fibres.empty()) return found;
   for (std::size_t i = 0; viscous && i < viscous->size(); ++i)

@@ -45,9 +45,9 @@ struct Material {
     v(&Material::fibres, "fibres", unit::none, "fibre families; none means an isotropic material");
     v(&Material::volume, "volume", unit::none, "how volume change is resisted", required);
     v(&Material::viscous, "viscous", unit::none,
-      "branches that relax; matrix and fibres are then the law that is left after all have relaxed. A scene with one needs path.seconds");
+      "branches that relax; matrix and fibres then describe the material after all have relaxed. A scene with a branch needs path.seconds");
     v(&Material::spectrum, "spectrum", unit::none,
-      "in place of viscous, or beside it: one branch for each decade from tau1 to tau2");
+      "instead of viscous, or in addition: one branch for each decade from tau1 to tau2");
   }
   std::vector<Complaint> complaints() const;
 };

@@ -108,7 +108,7 @@ TiedNumbers::TiedNumbers(Material& material, const std::vector<Tie>& ties) {
   const auto number = [&](const std::string& key) {
     for (const MaterialParameter& p : all)
       if (p.key == key) return p.value;
-    throw std::logic_error("the law has no parameter " + key);
+    throw std::logic_error("the material has no parameter " + key);
   };
   for (const Tie& tie : ties)
     all_.push_back({number(tie.key), number(tie.of), tie.factor, tie.offset});

@@ -42,7 +42,7 @@ void MovingNodes::take(int e, const std::vector<const HangingNode*>& hangs) {
   const bool hang_again =
       std::any_of(others.begin(), others.end(), [&](int n) { return hangs[n] != nullptr; });
   if (!one_for_each || hang_again)
-    throw std::logic_error("a cell beside cells more than twice as long");
+    throw std::logic_error("a neighbour of an element is less than half as long");
   MatX C = MatX::Zero(8, 8);
   const auto slot = [&](int n) {
     return std::find(moves.begin(), moves.end(), n) - moves.begin();
@@ -89,7 +89,7 @@ std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
 }
 
 std::string hanging_fault(const Mesh& mesh) {
-  if (mesh.type != CellType::hex8 || mesh.section) return "beside cells of another type";
+  if (mesh.type != CellType::hex8 || mesh.section) return "in a mesh of other elements than hex8";
   int before = -1;
   for (const HangingNode& h : mesh.hanging) {
     if (h.node <= before) return fmt::format("node {} behind node {}", h.node, before);

@@ -185,7 +185,7 @@ ChildAnswer run_in_child(const std::string& file, const std::function<void()>& p
                                      "",
                                      fmt::format("{}: {}", action, std::strerror(errno)),
                                      "",
-                                     "gmsh runs in a process of its own"});
+                                     "gmsh runs in a separate process"});
   };
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("no pipe can be made");

@@ -55,7 +55,7 @@ MshModel call_in_child(const std::string& path, const std::string& file,
   if (!answer.is_restricted) {
     const std::string note =
         "this system cannot restrict what gmsh does (no seccomp): it reads a private copy of " +
-        path + " in a process of its own";
+        path + " in a separate process";
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
   switch (answer.end) {

@@ -98,7 +98,7 @@ class World : public Ranks {
 
 Ranks* world(std::string& why) {
   if (!std::getenv("PMIX_RANK") && !std::getenv("OMPI_COMM_WORLD_SIZE")) {  // MPI would end them
-    why = "nothing tells them of each other, as srun --mpi=pmix and Open MPI's mpirun do";
+    why = "they were started without a connection; srun --mpi=pmix and Open MPI's mpirun make one";
     return nullptr;
   }
   try {
@@ -111,8 +111,8 @@ Ranks* world(std::string& why) {
   MPI_Comm_size(MPI_COMM_WORLD, &n);
   static World all;
   if (n == launched().n) return &all;
-  why = "they do not know of each other, MPI finds " + std::to_string(n) +
-        "; srun --mpi=pmix or Open MPI's mpirun tells them";
+  why = "they are not connected, MPI finds " + std::to_string(n) +
+        "; start them by srun --mpi=pmix or Open MPI's mpirun";
   return nullptr;
 }
 
