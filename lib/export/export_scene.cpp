@@ -312,7 +312,7 @@ class DeckComposer {
       name_set(set);
     }
     deck_.contacts.push_back(
-        contact_of(deck_.mesh, law, set, (middle - vec(sphere.centre)).normalized(), path_));
+        contact_of(deck_.mesh, law, set, (middle - sphere.centre).normalized(), path_));
   }
 
   void take_increments() {
