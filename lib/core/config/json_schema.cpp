@@ -49,10 +49,12 @@ std::string json_of(const Tree& t, int indent) {
 namespace schema {
 
 Tree included() {
-  return object({{"description",
-                  word("a file, or a list of files, whose keys are inserted here; keys next to it override them")},
-                 {"anyOf", list({type("string"),
-                                 object({{"type", word("array")}, {"items", type("string")}})})}});
+  return object(
+      {{"description",
+        word(
+            "a file, or a list of files, whose keys are inserted here; keys next to it override them")},
+       {"anyOf",
+        list({type("string"), object({{"type", word("array")}, {"items", type("string")}})})}});
 }
 
 Tree number(const Member& m, bool whole) {
@@ -74,6 +76,11 @@ Tree described(Tree schema, const Member& m) {
   return schema;
 }
 
+Tree text_schema(const Member& m) {
+  if (m.words.empty()) return types({"string", "number", "boolean"});
+  return object({{"enum", words(m.words)}});
+}
+
 void refuse_others(Tree& object) {
   object.map.push_back({"additionalProperties", plain_tree("false")});
 }
@@ -90,7 +97,7 @@ std::string document(const std::string& title, Tree root, const Definitions& def
   Tree t = object(
       {{"$schema", word("http://json-schema.org/draft-07/schema#")}, {"title", word(title)}});
   for (Tree::Entry& entry : root.map) t.map.push_back(std::move(entry));
-  // beside $ref draft 7 reads nothing else
+  // draft 7 ignores all other keys next to $ref
   if (const Tree* ref = t.find("$ref")) {
     Tree first = object({{"$ref", *ref}});
     std::erase_if(t.map, [](const Tree::Entry& e) { return e.key == "$ref"; });

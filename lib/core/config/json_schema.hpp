@@ -53,6 +53,7 @@ inline Tree reference(const std::string& name) {
 
 Tree included();  // what `include` may hold
 Tree number(const Member& m, bool whole);
+Tree text_schema(const Member& m);             // any text, or one of the member's words
 Tree described(Tree schema, const Member& m);  // with its meaning and unit
 void refuse_others(Tree& object);
 // for a struct or a choice: `whole`, or `part` where `include` brings in the rest
@@ -113,14 +114,14 @@ bool asks_within() {
 }
 
 template <class T>
-Tree of(const Member& m, bool whole, Definitions& definitions);
+Tree value_schema(const Member& m, bool whole, Definitions& definitions);
 
 template <Listed T>
-Tree of_struct(bool whole, Definitions& definitions);
+Tree struct_schema(bool whole, Definitions& definitions);
 
-// the keys of a struct; `whole`: those required must be there
+// The schema of a struct itself. `whole`: its required keys must be there.
 template <Listed T>
-Tree of_lines(bool whole, Definitions& definitions) {
+Tree lines_schema(bool whole, Definitions& definitions) {
   Tree properties = object(), needed = list({}), one_of = list({});
   T defaults{};
   for_each_line(defaults, [&](const Member& m, const auto& value) {
@@ -129,12 +130,12 @@ Tree of_lines(bool whole, Definitions& definitions) {
       if (is_among_keys<V>(m)) {
         for_each_alternative<V>([&](const auto& a) {
           using A = std::remove_cvref_t<decltype(a)>;
-          properties.map.push_back({A::key, of_struct<A>(whole, definitions)});
+          properties.map.push_back({A::key, struct_schema<A>(whole, definitions)});
           one_of.list.push_back(object({{"required", words({A::key})}}));
         });
         return;
       }
-    Tree one = described(of<V>(m, whole, definitions), m);
+    Tree one = described(value_schema<V>(m, whole, definitions), m);
     if constexpr ((is_leaf<V> && !std::is_same_v<V, InputPath>) || is_array<V>)
       if (!m.required) {
         Tree otherwise = to_tree(value);
@@ -155,16 +156,18 @@ Tree of_lines(bool whole, Definitions& definitions) {
   return t;
 }
 
+// A reference to the definition of a struct, which is made on first use. A struct with required
+// keys has two definitions: complete, and in part for maps that include the rest.
 template <Listed T>
-Tree of_struct(bool whole, Definitions& definitions) {
+Tree struct_schema(bool whole, Definitions& definitions) {
   const std::string name = type_name<T>(), part = name + "_in_part";
   const bool differ = asks_within<T>();
   const std::string wanted = whole || !differ ? name : part;
   if (definitions.count(wanted)) return reference(wanted);
   definitions[wanted] = object();  // stops recursion
-  Tree made = of_lines<T>(whole && differ, definitions);
+  Tree made = lines_schema<T>(whole && differ, definitions);
   if (whole && differ) {
-    of_struct<T>(false, definitions);
+    struct_schema<T>(false, definitions);
     made = or_included(std::move(made), part);
   }
   definitions[wanted] = std::move(made);
@@ -172,11 +175,11 @@ Tree of_struct(bool whole, Definitions& definitions) {
 }
 
 template <class Choice>
-Tree of_alternatives(bool whole, Definitions& definitions) {
+Tree alternatives_schema(bool whole, Definitions& definitions) {
   Tree properties = object();
   for_each_alternative<Choice>([&](const auto& a) {
     using A = std::remove_cvref_t<decltype(a)>;
-    properties.map.push_back({A::key, of_struct<A>(whole, definitions)});
+    properties.map.push_back({A::key, struct_schema<A>(whole, definitions)});
   });
   properties.map.push_back({"include", included()});
   Tree t = object({{"type", word("object")}, {"properties", std::move(properties)}});
@@ -185,9 +188,9 @@ Tree of_alternatives(bool whole, Definitions& definitions) {
 }
 
 template <class T>
-Tree of(const Member& m, bool whole, Definitions& definitions) {
+Tree value_schema(const Member& m, bool whole, Definitions& definitions) {
   if constexpr (is_optional<T>) {
-    Tree t = of<typename T::value_type>(m, whole, definitions);
+    Tree t = value_schema<typename T::value_type>(m, whole, definitions);
     if constexpr (Listed<typename T::value_type>)
       return t;
     else
@@ -197,19 +200,18 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
   else if constexpr (is_whole_number<T> || std::is_floating_point_v<T>)
     return number(m, is_whole_number<T>);
   else if constexpr (is_history<T>)
-    return object({{"anyOf", list({number(m, false),
-                                   of<std::vector<HistoryPointConfig>>(m, whole, definitions)})}});
+    return object({{"anyOf", list({number(m, false), value_schema<std::vector<HistoryPointConfig>>(
+                                                         m, whole, definitions)})}});
   else if constexpr (Named<T>)
     return object({{"enum", words(words_of<T>())}});
   else if constexpr (std::is_same_v<T, std::string>)
-    return m.words.empty() ? types({"string", "number", "boolean"})
-                           : object({{"enum", words(m.words)}});
+    return text_schema(m);
   else if constexpr (std::is_same_v<T, InputPath>)
     return type("string");
   else if constexpr (is_choice<T>) {
-    Tree t = of_alternatives<T>(whole, definitions);
+    Tree t = alternatives_schema<T>(whole, definitions);
     if (whole) {
-      Tree part = of_alternatives<T>(false, definitions);
+      Tree part = alternatives_schema<T>(false, definitions);
       t.map.push_back({"minProperties", plain_tree("1")});
       t.map.push_back({"maxProperties", plain_tree("1")});
       return object({{"if", object({{"type", word("object")}, {"required", words({"include"})}})},
@@ -220,29 +222,29 @@ Tree of(const Member& m, bool whole, Definitions& definitions) {
   } else if constexpr (is_sum<T>) {
     using Term = typename T::value_type;
     return object(
-        {{"anyOf",
-          list({of_alternatives<Term>(whole, definitions),
-                object({{"type", word("array")}, {"items", of<Term>(m, whole, definitions)}})})}});
+        {{"anyOf", list({alternatives_schema<Term>(whole, definitions),
+                         object({{"type", word("array")},
+                                 {"items", value_schema<Term>(m, whole, definitions)}})})}});
   } else if constexpr (is_vector<T> || is_array<T>) {
-    Tree t = object(
-        {{"type", word("array")}, {"items", of<typename T::value_type>(m, whole, definitions)}});
+    Tree t = object({{"type", word("array")},
+                     {"items", value_schema<typename T::value_type>(m, whole, definitions)}});
     if constexpr (is_array<T>)
       for (const char* end : {"minItems", "maxItems"})
         t.map.push_back({end, plain_tree(std::to_string(std::tuple_size_v<T>))});
     return t;
   } else if constexpr (is_named_things<T>) {
-    Tree t = object(
-        {{"type", word("object")},
-         {"properties", object({{"include", included()}})},
-         {"patternProperties", object({{"^(?!include$)[A-Za-z0-9_+-]+$",
-                                        of<typename T::mapped_type>(m, whole, definitions)}})}});
+    Tree t = object({{"type", word("object")},
+                     {"properties", object({{"include", included()}})},
+                     {"patternProperties",
+                      object({{"^(?!include$)[A-Za-z0-9_+-]+$",
+                               value_schema<typename T::mapped_type>(m, whole, definitions)}})}});
     refuse_others(t);
     return t;
   } else if constexpr (Shortened<T>) {
     return object(
-        {{"anyOf", list({types({"string", "number"}), of_struct<T>(whole, definitions)})}});
+        {{"anyOf", list({types({"string", "number"}), struct_schema<T>(whole, definitions)})}});
   } else
-    return of_struct<T>(whole, definitions);
+    return struct_schema<T>(whole, definitions);
 }
 
 std::string document(const std::string& title, Tree root, const Definitions& definitions);
@@ -252,7 +254,7 @@ std::string document(const std::string& title, Tree root, const Definitions& def
 template <Listed Config>
 std::string json_schema(const std::string& title) {
   schema::Definitions definitions;
-  Tree root = schema::of_struct<Config>(true, definitions);
+  Tree root = schema::struct_schema<Config>(true, definitions);
   return schema::document(title, std::move(root), definitions);
 }
 

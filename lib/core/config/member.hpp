@@ -33,12 +33,16 @@ struct Member {
   const char* sign_of = "";
 
   void add(Required) { required = true; }
-  // several ranges hold together
+  // of several ranges, their intersection
   void add(const Range& r) {
-    if (r.low > range.low || (r.low == range.low && !r.low_included))
-      range.low = r.low, range.low_included = r.low_included;
-    if (r.high < range.high || (r.high == range.high && !r.high_included))
-      range.high = r.high, range.high_included = r.high_included;
+    if (r.low > range.low || (r.low == range.low && !r.low_included)) {
+      range.low = r.low;
+      range.low_included = r.low_included;
+    }
+    if (r.high < range.high || (r.high == range.high && !r.high_included)) {
+      range.high = r.high;
+      range.high_included = r.high_included;
+    }
   }
   void add(const OneOf& one) { words = one.words; }
   void add(const Hint& h) { hint = h.text; }
@@ -84,7 +88,7 @@ concept Named = std::is_enum_v<T> && requires(T e) {
   names(e).size();
 };
 
-// a struct that a scalar may stand for: the value of one of its keys, the others as they are
+// a struct with a short form: a scalar is the value of one of its keys, the others have defaults
 template <class T>
 concept Shortened = Listed<T> && requires {
   { T::short_key } -> std::convertible_to<const char*>;
@@ -147,7 +151,7 @@ std::vector<std::string> alternatives() {
   return words;
 }
 
-// the key of the alternative stands among those of the struct (among_keys in base/fields.hpp)
+// the key of the alternative is one of the keys of the struct (among_keys in base/fields.hpp)
 template <class V>
 bool is_among_keys(const Member& m) {
   return is_choice<V> && !*m.key;
@@ -201,9 +205,10 @@ std::string type_words(const Member& m) {
     return number_words(m, false) + ", or a list of {t, to}";
   else if constexpr (Named<T>)
     return "one of " + list_words(words_of<T>());
-  else if constexpr (std::is_same_v<T, std::string>)
-    return m.words.empty() ? "a text" : "one of " + list_words(m.words);
-  else if constexpr (std::is_same_v<T, InputPath>)
+  else if constexpr (std::is_same_v<T, std::string>) {
+    if (m.words.empty()) return "a text";
+    return "one of " + list_words(m.words);
+  } else if constexpr (std::is_same_v<T, InputPath>)
     return "the path of a file, relative to this one";
   else if constexpr (is_choice<T>)
     return "a map with exactly one of the keys " + list_words(alternatives<T>());
@@ -218,7 +223,7 @@ std::string type_words(const Member& m) {
   else if constexpr (is_named_things<T>)
     return "a map of names; each value " + type_words<typename T::mapped_type>(m);
   else {
-    static_assert(Listed<T>, "this member type is not one of those that base/fields.hpp names");
+    static_assert(Listed<T>, "base/fields.hpp lists the types of members; this is none of them");
     std::string words = "a map with the keys " + list_words(keys_of<T>());
     if constexpr (Shortened<T>)
       words = std::string("the value of ") + T::short_key + ", or " + words;

@@ -10,22 +10,26 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/base/text.hpp"
+
 namespace langer {
 
 namespace {
 
+// YAML 1.1 reads 010 as an octal number: such texts are refused rather than read either way.
 bool has_leading_zero(std::string_view digits) {
   if (!digits.empty() && (digits[0] == '-' || digits[0] == '+')) digits.remove_prefix(1);
   return digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9';
 }
 
-// from_chars does not know a leading plus
+// std::from_chars does not accept a leading plus.
 std::string_view without_plus(const Tree& tree) {
   std::string_view s = tree.scalar;
   if (s.size() > 1 && s[0] == '+' && s[1] != '-') s.remove_prefix(1);
   return s;
 }
 
+// The usual reasons why a text is not a number: quotes, a leading zero, a decimal comma, a unit.
 std::string number_hint(const Tree& tree, const Member& m) {
   const std::string& s = tree.scalar;
   if (tree.quoted) return "write numbers without quotes";
@@ -39,7 +43,9 @@ std::string number_hint(const Tree& tree, const Member& m) {
 }
 
 bool within(double x, const Range& r) {
-  return (r.low_included ? x >= r.low : x > r.low) && (r.high_included ? x <= r.high : x < r.high);
+  const bool above = x > r.low || (r.low_included && x == r.low);
+  const bool below = x < r.high || (r.high_included && x == r.high);
+  return above && below;
 }
 
 }  // namespace
@@ -51,21 +57,24 @@ std::string list_words(const std::vector<std::string>& words) {
 std::string number_words(const Member& m, bool whole) {
   std::string s = whole ? "a whole number" : "a number";
   const Range& r = m.range;
-  const bool low = std::isfinite(r.low), high = std::isfinite(r.high);
+  const bool low = std::isfinite(r.low);
+  const bool high = std::isfinite(r.high);
   if (low) s += fmt::format(" {} {}", r.low_included ? ">=" : ">", r.low);
-  if (high) s += fmt::format("{} {} {}", low ? " and" : "", r.high_included ? "<=" : "<", r.high);
+  if (low && high) s += " and";
+  if (high) s += fmt::format(" {} {}", r.high_included ? "<=" : "<", r.high);
   if (std::string(m.unit) != unit::none) s += fmt::format(" in {}", m.unit);
   return s;
 }
 
 // A multiple of 15 degrees in radians, with three digits or more.
 static bool looks_like_radians(double x) {
-  const double parts = std::abs(x) * 12 / std::numbers::pi, whole = std::round(parts);
+  const double parts = std::abs(x) * 12 / std::numbers::pi;
+  const double whole = std::round(parts);
   return whole >= 1 && whole <= 24 && std::abs(parts - whole) < 6e-4 * whole;
 }
 
-// lengths, which must be positive, and positions, both in mm: squares and ratios of what is in here
-// stay numbers
+// Limits for lengths, which are positive, and for positions, both in mm: squares and ratios of
+// values within them neither overflow nor underflow.
 static bool is_length(double x, const Member& m) {
   const bool positive_only = m.range.low == 0 && !m.range.low_included;
   return std::abs(x) <= 1e9 && (!positive_only || x >= 1e-9);
@@ -114,7 +123,8 @@ void read_history(const Tree& tree, const std::string& path, const Member& m, Hi
   if (f.errors.size() > before) return;
   for (const Complaint& c : place_complaints(out.points, "", "{t: 1, to: ...}"))
     f.say(tree.place, path, c.found, c.expected, c.hint);
-  for (std::size_t i = 0; i < out.points.size(); ++i)  // as large as a number in this place may be
+  // each value of the list obeys the range of the key, as a single number does
+  for (std::size_t i = 0; i < out.points.size(); ++i)
     if (const Tree* to = tree.list[i].find("to"))
       read_leaf(*to, join(item(path, i), "to"), m, out.points[i].to, f);
 }
@@ -143,14 +153,17 @@ int read_word(const Tree& tree, const std::string& path, const Member& m,
   if (tree.kind == Tree::Kind::scalar) {
     std::string word = tree.scalar;
     for (const FormerWord& name : former)
-      if (word == name.was) f.notice(tree.place, path, name.was, name.is), word = name.is;
+      if (word == name.was) {
+        f.notice(tree.place, path, name.was, name.is);
+        word = name.is;
+      }
     if (const auto it = std::find(words.begin(), words.end(), word); it != words.end())
       return static_cast<int>(it - words.begin());
   }
   std::string hint = m.hint;
   if (tree.kind == Tree::Kind::scalar)
     if (const std::string near = nearest(tree.scalar, words); !near.empty())
-      hint = fmt::format("did you mean \"{}\"?", near);
+      hint = did_you_mean(near);
   f.say(tree.place, path, "found " + description(tree), "one of " + list_words(words), hint);
   return -1;
 }
@@ -176,7 +189,7 @@ void read_leaf(const Tree& tree, const std::string& path, const Member& m, Input
 }
 
 void report_unknown_key(const Tree::Entry& entry, const std::string& path,
-                 const std::vector<std::string>& known, Findings& f) {
+                        const std::vector<std::string>& known, Findings& f) {
   // `radius: 2,5` in braces is the key `radius` with 2, and a key `5` without a value
   const bool digits =
       !entry.key.empty() &&
@@ -188,30 +201,42 @@ void report_unknown_key(const Tree::Entry& entry, const std::string& path,
                  fmt::format("found \",{}\" behind a number: a decimal comma", entry.key),
                  "a decimal point, as in 2.5");
   const std::string near = nearest(entry.key, known);
-  f.say(entry.value.place, path,
-        fmt::format("unknown key \"{}\"; known: {}{}", entry.key, list_words(known),
-                    near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+  std::string found = fmt::format("unknown key \"{}\"; known: {}", entry.key, list_words(known));
+  if (!near.empty()) found += "; " + did_you_mean(near);
+  f.say(entry.value.place, path, found);
 }
 
+namespace {
+
+// Which of several files a value comes from: 0 is the file itself, 1 a file that it includes, and
+// so on; -1 is a value set after reading (--set, a sweep), which overrides all files.
+int layer_of(const Tree& tree) {
+  if (tree.set_later) return -1;
+  return std::countr_zero(tree.layers);
+}
+
+}  // namespace
+
 const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f) {
-  const Tree *given = tree.find(m.key), *old = *m.former ? tree.find(m.former) : nullptr;
+  const Tree* given = tree.find(m.key);
+  const Tree* old = nullptr;
+  if (*m.former) old = tree.find(m.former);
   if (!old) return given;
-  // lowest first: --set or a sweep, the file that includes, those that lie under it
-  const auto depth = [](const Tree& t) {
-    return t.set_later ? -1 : std::countr_zero(t.layers);
-  };
-  if (given && depth(*given) == depth(*old)) {
+  if (given && layer_of(*given) == layer_of(*old)) {
     f.say(old->place, join(path, m.former),
           fmt::format("found together with {}, its new name", m.key), "one of the two");
     return given;
   }
   f.notice(old->place, path, m.former, m.key);
-  return given && depth(*given) < depth(*old) ? given : old;
+  if (given && layer_of(*given) < layer_of(*old)) return given;
+  return old;
 }
 
 Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {
   Tree part;
-  part.kind = Tree::Kind::map, part.place = tree.place, part.base = tree.base,
+  part.kind = Tree::Kind::map;
+  part.place = tree.place;
+  part.base = tree.base;
   part.layers = tree.layers;
   for (const Tree::Entry& entry : tree.map)
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) part.map.push_back(entry);
@@ -253,11 +278,14 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
     const bool others = std::none_of(
         over.begin(), over.end(), [&](const Tree::Entry* e) { return e->value.layers >> layer; });
     if (others) break;
-    f.say(
-        tree.place, path, fmt::format("found {} together with an included {}", words(over), words(under)),
-        "the alternatives that are included, with other numbers, or only others, which replace them",
-        is_sum ? fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key)
-               : "leave this key out of the included file");
+    std::string hint = "leave this key out of the included file";
+    if (is_sum)
+      hint = fmt::format("a list replaces what is included: [{{{}: {{...}}}}]", over[0]->key);
+    f.say(tree.place, path,
+          fmt::format("found {} together with an included {}", words(over), words(under)),
+          "the alternatives that are included, with other numbers, or only others, which replace "
+          "them",
+          hint);
     return {};
   }
   return over;
@@ -271,6 +299,7 @@ void throw_sorted(std::vector<Error> errors) {
   throw Failure(Exit::config, std::move(errors));
 }
 
+// Names may be parts of file names, of HDF5 paths and of paths of keys.
 bool is_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -279,7 +308,8 @@ bool is_name(const std::string& name) {
 }
 
 std::string join(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
+  if (path.empty()) return key;
+  return path + "." + key;
 }
 std::string item(const std::string& path, std::size_t index) {
   return fmt::format("{}[{}]", path, index);

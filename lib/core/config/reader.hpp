@@ -27,7 +27,7 @@ struct Loaded {
   std::vector<std::string> notices;  // one line each, with its place
 };
 
-// Errors and notices found so far. A reading that says an error leaves the value as it was.
+// Errors and notices found so far. A function that reports an error leaves the value unchanged.
 struct Findings {
   std::vector<Error> errors;
   std::vector<std::string> notices;
@@ -56,22 +56,31 @@ int read_word(const Tree& tree, const std::string& path, const Member& m,
               const std::vector<std::string>& words, Findings& f,
               const std::vector<FormerWord>& former = {});  // -1: none
 void report_unknown_key(const Tree::Entry& entry, const std::string& path,
-                 const std::vector<std::string>& known, Findings& f);
+                        const std::vector<std::string>& known, Findings& f);
 [[noreturn]] void throw_sorted(std::vector<Error> errors);  // by place
-bool is_name(const std::string& name);  // may stand in file names, HDF5 paths and paths of keys
+bool is_name(const std::string& name);  // valid in file names, HDF5 paths and paths of keys
 std::string join(const std::string& path, const std::string& key);
 std::string item(const std::string& path, std::size_t index);
 
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
 
-// What stands under the member's key or its former one, whichever lies over the other; nullptr:
-// neither. An error within one file.
+// The value of the member's key or of its former key: the one of the overriding file if there are
+// both; nullptr if there is neither. Both in one file are an error.
 const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f);
 
 // the entries of a map that have these keys
 Tree part_of(const Tree& tree, const std::vector<std::string>& keys);
 
+// The path of a complaint's key, which is relative to its struct: empty, "[0]" or "key".
+inline std::string complaint_path(const std::string& path, const std::string& key) {
+  if (key.empty()) return path;
+  if (key[0] == '[') return path + key;
+  return join(path, key);
+}
+
+// Reads each line of the listing, then reports unknown keys, then asks the struct for complaints,
+// but only if all its values were read.
 template <Listed T>
 void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f) {
   const std::size_t before = f.errors.size();
@@ -104,20 +113,14 @@ void read_struct(const Tree& tree, const std::string& path, T& out, Findings& f)
       report_unknown_key(entry, path, known, f);
   if constexpr (Complaining<T>) {
     if (f.errors.size() > before) return;
-    for (const Complaint& c : out.complaints()) {
-      const Place place = c.key.empty() ? tree.place : place_of(tree, c.key);
-      f.say(place,
-            c.key.empty()     ? path
-            : c.key[0] == '[' ? path + c.key
-                              : join(path, c.key),
-            c.found, c.expected, c.hint);
-    }
+    for (const Complaint& c : out.complaints())
+      f.say(place_of(tree, c.key), complaint_path(path, c.key), c.found, c.expected, c.hint);
   }
 }
 
-// Of a map of alternatives, what holds: those of an included file give way as a whole to others
-// that are written over them. Said, and empty, where some are the same and some are others, or
-// --set adds one to those that are there.
+// The entries of a map of alternatives that count. Alternatives of an included file are replaced as
+// a whole by other ones of the including file. A mixture of the same and of other alternatives, or
+// one that --set adds to those of the files, is reported as an error; then the result is empty.
 std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
                                        Findings& f);
 
@@ -157,7 +160,8 @@ void read_choice(const Tree& tree, const std::string& path, const Member& m, Cho
     return;
   }
   const std::vector<std::string> known = alternatives<Choice>();
-  for (const Tree::Entry* entry : entries)  // a misspelt key says more than their number
+  // a misspelt key is a better message than the number of keys
+  for (const Tree::Entry* entry : entries)
     if (std::find(known.begin(), known.end(), entry->key) == known.end())
       report_unknown_key(*entry, path, known, f);
   if (f.errors.size() == before)
@@ -189,7 +193,7 @@ void read_named_things(const Tree& tree, const std::string& path, const Member& 
   }
 }
 
-// a list, or a map of which several keys are terms
+// A sum is a list of maps with one key each, or one map whose keys are all terms.
 template <class Term>
 void read_sum(const Tree& tree, const std::string& path, const Member& m, std::vector<Term>& out,
               Findings& f) {
@@ -201,6 +205,7 @@ void read_sum(const Tree& tree, const std::string& path, const Member& m, std::v
   read_items(tree, path, m, out, f);
 }
 
+// Dispatches on the type of the member; the kinds of types are those of config/member.hpp.
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f) {
   using Kind = Tree::Kind;
@@ -255,7 +260,7 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
         return read_struct(map, path, out, f);
       }
     }
-    // an empty value stands for a map without keys
+    // an empty value is read as a map without keys
     if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();
     read_struct(tree, path, out, f);
   }

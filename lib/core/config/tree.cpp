@@ -20,6 +20,7 @@ void set_base(Tree& tree, const std::string& base) {
   for (auto& entry : tree.map) set_base(entry.value, base);
 }
 
+// "contacts[0].friction" -> contacts, 0, friction; nothing for a text that is not a path.
 std::vector<PathStep> split_path(const std::string& path) {
   std::vector<PathStep> steps;
   std::size_t i = 0;
@@ -46,6 +47,8 @@ std::vector<PathStep> split_path(const std::string& path) {
 
 namespace {
 
+// Layer 0 is the outermost file; whether another alternative comes from a file that overrides the
+// one of this.
 bool is_overridden(const Tree& one, const std::vector<Tree::Entry>& all) {
   return std::any_of(all.begin(), all.end(), [&](const Tree::Entry& e) {
     return std::countr_zero(e.value.layers) < std::countr_zero(one.layers);
@@ -54,6 +57,7 @@ bool is_overridden(const Tree& one, const std::vector<Tree::Entry>& all) {
 
 }  // namespace
 
+// Maps and keys that are missing on the way are made; items of lists are not.
 void set_value(Tree& tree, const std::string& path, Tree value) {
   const Place place = value.place;
   const auto fail = [&](std::string found, std::string expected) {
@@ -69,7 +73,7 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
       if (at->kind != Tree::Kind::list)
         fail(fmt::format("{} is {}", walked, description(*at)), "a list");
       if (step.index >= n)
-        fail(fmt::format("{} has {} {}", walked, n, n == 1 ? "item" : "items"),
+        fail(fmt::format("{} has {} item{}", walked, n, plural_s(n)),
              fmt::format("an index below {}", n));
       walked += fmt::format("[{}]", step.index);
       at = &at->list[static_cast<std::size_t>(step.index)];
@@ -85,8 +89,8 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
         at->map.push_back({step.key, made});
       }
       Tree* next = const_cast<Tree*>(at->find(step.key));
-      if (is_overridden(*next, at->map))
-        next->set_later = true;  // what lies over it may have replaced it
+      // a value of a higher layer may have replaced this one, so it counts as set again
+      if (is_overridden(*next, at->map)) next->set_later = true;
       at = next;
     }
   }
@@ -95,6 +99,7 @@ void set_value(Tree& tree, const std::string& path, Tree value) {
   *at = std::move(value);
 }
 
+// Of a key that is missing: the place of the innermost map that is there.
 Place place_of(const Tree& tree, const std::string& path) {
   const Tree* at = &tree;
   for (const PathStep& step : split_path(path)) {

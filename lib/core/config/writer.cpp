@@ -15,13 +15,14 @@ namespace fs = std::filesystem;
 std::string as_held(const std::string& path) { return path; }
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 std::string relative_path(const std::string& path, const std::string& folder) {
-  // of a folder that does not exist yet, only the absolute name can be made canonical
+  // A folder that does not exist yet, or may not be read, has no canonical name: then the absolute
+  // names are compared.
   const fs::path from = fs::absolute(text_or(folder, "."));
   const fs::path to = fs::absolute(path);
   std::error_code ec;
   const fs::path relative = fs::relative(to, from, ec);
-  return (ec ? to.lexically_relative(from) : relative)
-      .string();  // ... nor below one that may not be looked into
+  if (ec) return to.lexically_relative(from).string();
+  return relative.string();
 }
 PathText relative_to(const std::string& folder) {
   return [folder](const std::string& path) {
@@ -38,13 +39,14 @@ bool plain_letters(const std::string& s) {
   });
 }
 
-// Texts that any YAML reader takes for a text when they stand without quotes.
+// Texts that every YAML reader reads as a text if they have no quotes.
 bool is_safe_plain(const std::string& s) {
   static const std::vector<std::string> taken{"true", "false", "yes", "no",  "on",
                                               "off",  "y",     "n",   "null"};
   if (s.empty()) return false;
   std::string lower = s;
-  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   if (std::find(taken.begin(), taken.end(), lower) != taken.end()) return false;
   return (letter(s[0]) || s[0] == '/' || s.rfind("../", 0) == 0) && plain_letters(s);
 }
@@ -78,7 +80,8 @@ void write(const Tree& t, int indent, bool first_in_line, std::string& out) {
   };
   for (const auto& [key, value] : t.map) {
     begin();
-    out += (!key.empty() && letter(key[0]) && plain_letters(key) ? key : quoted(key)) + ":";
+    const bool is_plain = !key.empty() && letter(key[0]) && plain_letters(key);
+    out += (is_plain ? key : quoted(key)) + ":";
     if (fits_a_line(value)) {
       out += " " + one_line(value) + "\n";
     } else {
@@ -99,12 +102,17 @@ void write(const Tree& t, int indent, bool first_in_line, std::string& out) {
 }  // namespace
 
 std::string to_text(const Tree& tree) {
-  if (fits_a_line(tree)) return one_line(tree) + (tree.kind == Tree::Kind::map ? "\n" : "");
+  if (fits_a_line(tree)) {
+    std::string line = one_line(tree);
+    if (tree.kind == Tree::Kind::map) line += "\n";
+    return line;
+  }
   std::string out;
   write(tree, 0, false, out);
   return out;
 }
 
+// -0 is written as 0, so that equal values give equal texts and hashes.
 std::string number_text(double x) { return fmt::format("{}", x == 0 ? 0.0 : x); }
 
 Tree plain_tree(const std::string& s) {
@@ -120,6 +128,8 @@ Tree text_tree(const std::string& s) {
   return t;
 }
 
+// The columns are as wide as their longest entry; entries above the widest width push their line's
+// last column to the right.
 std::string reference_text(const std::vector<DescribedKey>& keys) {
   std::size_t key_width = 0, kind_width = 0;
   constexpr std::size_t widest = 44;
@@ -127,7 +137,9 @@ std::string reference_text(const std::vector<DescribedKey>& keys) {
     return std::string(2 * static_cast<std::size_t>(k.level), ' ') + k.key;
   };
   const auto kind = [](const DescribedKey& k) {
-    return k.otherwise.empty() ? k.kind : k.kind + "; " + k.otherwise;
+    std::string words = k.kind;
+    if (!k.otherwise.empty()) words += "; " + k.otherwise;
+    return words;
   };
   for (const DescribedKey& k : keys) {
     key_width = std::max(key_width, head(k).size());

@@ -1,11 +1,11 @@
 // Config struct -> canonical YAML text (every key, defaults filled in; equal structs give equal
-// text), and --describe. Keys stand in the order of the listing, absent optional keys and files are
+// text), and --describe. Keys are in the order of the listing, absent optional keys and files are
 // left out, numbers are the shortest that read back the same.
 //
 //   std::string effective = to_yaml(config);
 //   std::string reference = describe<SolveConfig>();     // key, type, unit, default, range, meaning
 //
-// Input paths are written as they are held, or rewritten by the function given beside the config.
+// Input paths are written as they are held, or rewritten by the function given with the config.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,7 @@ namespace langer {
 
 using PathText = std::function<std::string(const std::string& path)>;
 std::string as_held(const std::string& path);
-std::string file_name(
-    const std::string& path);  // without folders: does not depend on where a file lies
+std::string file_name(const std::string& path);  // without folders: the same in every place
 std::string relative_path(const std::string& path,
                           const std::string& folder);  // symbolic links are followed
 PathText relative_to(const std::string& folder);       // as seen from a file in that folder
@@ -28,6 +27,7 @@ std::string number_text(double x);      // shortest text that reads back the sam
 Tree text_tree(const std::string& s);   // a text, quoted where it could be read as something else
 Tree plain_tree(const std::string& s);  // a number, a bool or a word
 
+// Dispatches on the type of the member, as read_value of config/reader.hpp does.
 template <class T>
 Tree to_tree(const T& value, const PathText& path_text = as_held) {
   Tree t;
@@ -53,7 +53,7 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
         },
         value);
   } else if constexpr (is_sum<T>) {
-    // a map where each term stands once, otherwise a list
+    // a map if each kind of term occurs once, otherwise a list
     t.kind = Tree::Kind::map;
     for (const auto& term : value) {
       Tree choice = to_tree(term, path_text);
@@ -85,7 +85,7 @@ Tree to_tree(const T& value, const PathText& path_text = as_held) {
       else
         t.map.push_back({m.key, to_tree(part, path_text)});
     });
-    // in its short form where it was, so that a config keeps its text
+    // the short form if it says everything, so that the text of such a config stays as it was
     if constexpr (Shortened<T>) {
       if (t.map.size() == 1 && t.map.front().key == T::short_key) {
         const Tree only = t.map.front().value;
@@ -108,7 +108,8 @@ struct NamedFile {
 template <class T>
 void collect_files(const T& value, const std::string& path, std::vector<NamedFile>& files) {
   const auto below = [&](const std::string& key) {
-    return path.empty() ? key : path + "." + key;
+    if (path.empty()) return key;
+    return path + "." + key;
   };
   if constexpr (std::is_same_v<T, InputPath>) {
     if (!value.path.empty()) files.push_back({path, value.path});
@@ -137,7 +138,7 @@ std::vector<NamedFile> files_named_by(const Config& config) {
   return files;
 }
 
-// What a result says of its config. Input files count by what they hold, not by where they lie.
+// The config as results record it. Input files count by their content, not by their place.
 struct ConfigText {
   std::string full;    // effective YAML
   std::string hashed;  // the same with input files by name
@@ -204,6 +205,7 @@ std::string kind_words(const Member& m) {
     return type_words<T>(m);
 }
 
+// The lines of a struct, its default values read from a default-constructed object.
 template <Listed T>
 void describe_lines(int level, std::vector<DescribedKey>& keys) {
   T object{};
@@ -214,8 +216,10 @@ void describe_lines(int level, std::vector<DescribedKey>& keys) {
         const std::size_t first = keys.size();
         describe_parts<V>(level, keys);
         for (std::size_t i = first; i < keys.size(); ++i)
-          if (keys[i].level == level)
-            keys[i].otherwise = "one of " + list_words(alternatives<V>()), keys[i].doc = m.doc;
+          if (keys[i].level == level) {
+            keys[i].otherwise = "one of " + list_words(alternatives<V>());
+            keys[i].doc = m.doc;
+          }
         return;
       }
     std::string otherwise;

@@ -1,5 +1,6 @@
 // The parser: yaml-cpp's events, whose marks are exact, become trees; then includes are merged.
 #include "core/base/input_file.hpp"
+#include "core/base/text.hpp"
 #include "core/config/tree.hpp"
 #include "core/config/yaml_words.hpp"
 
@@ -26,6 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Limits that no sensible file reaches: aliases and includes can multiply a small file (the
+// "billion laughs") or nest it without end.
 constexpr std::size_t deepest = 64;
 constexpr std::size_t most_parts = 100'000;
 constexpr std::size_t largest_file = 4 << 20;  // bytes
@@ -69,7 +72,7 @@ class Builder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     check_tag(tag, mark);
-    if (expects_key()) return take_key(value, mark);
+    if (expects_key()) return read_key(value, mark);
     Tree t = made(Tree::Kind::scalar, mark);
     t.scalar = value;
     t.quoted = tag == "!";
@@ -105,9 +108,9 @@ class Builder : public YAML::EventHandler {
     YAML::anchor_t anchor;
     std::string key;  // of a map: the key whose value comes next
     Place key_place;
-    bool has_key = false,
-         drop = false;  // drop: the key was refused, its value is read and forgotten
-    std::unordered_map<std::string, int> lines = {};  // where each key of a map stands
+    bool has_key = false;
+    bool drop = false;  // the key was refused: its value is read and dropped
+    std::unordered_map<std::string, int> lines = {};  // the line of each key of a map
   };
   std::string file_, base_;
   std::size_t& n_parts_;
@@ -142,7 +145,7 @@ class Builder : public YAML::EventHandler {
     t.base = base_;
     return t;
   }
-  void take_key(const std::string& key, const YAML::Mark& mark) {
+  void read_key(const std::string& key, const YAML::Mark& mark) {
     Open& map = open_.back();
     map.key = key;
     map.key_place = place(mark);
@@ -207,14 +210,21 @@ Tree parse(const std::string& text, const std::string& file, const std::string& 
       refuse(builder.root.place, "found a second document", "one YAML document in a file");
     builder.root = first;
   } catch (const YAML::Exception& e) {
-    const YamlTrouble t = yaml_trouble(text, e.mark.is_null() ? 0 : e.mark.line + 1,
-                                       e.mark.is_null() ? 0 : e.mark.column + 1, e.msg);
+    int line = 0;
+    int column = 0;
+    if (!e.mark.is_null()) {
+      line = e.mark.line + 1;
+      column = e.mark.column + 1;
+    }
+    const YamlTrouble t = yaml_trouble(text, line, column, e.msg);
     refuse({file, t.line, t.column}, t.found, t.expected, t.hint);
   }
   if (!builder.errors.empty()) throw Failure(Exit::config, builder.errors);
   return std::move(builder.root);
 }
 
+// Adds the keys of `over` to `base`. Maps are merged key by key; any other value is replaced, and
+// removed by `key: null`.
 void merge(Tree& base, const Tree& over) {
   std::unordered_map<std::string_view, std::size_t> index;  // a map may have 100 000 keys
   base.map.reserve(base.map.size() + over.map.size());      // so that keys stay where they are
@@ -242,6 +252,8 @@ void merge(Tree& base, const Tree& over) {
     base.map.erase(base.map.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
+// Each value has a bit set for every layer (file) that it comes from: bit 0 for the outermost file,
+// higher bits for included ones.
 std::uint64_t layers_in(const Tree& tree) {
   std::uint64_t all = tree.layers;
   for (const Tree& item : tree.list) all |= layers_in(item);
@@ -249,30 +261,30 @@ std::uint64_t layers_in(const Tree& tree) {
   return all;
 }
 
-void put_under(Tree& tree, int layers) {
+void lower_layers(Tree& tree, int layers) {
   if (layers < 64) {
     tree.layers = tree.layers << layers;
   } else {
     tree.layers = 0;
   }
-  for (Tree& item : tree.list) put_under(item, layers);
-  for (auto& entry : tree.map) put_under(entry.value, layers);
+  for (Tree& item : tree.list) lower_layers(item, layers);
+  for (auto& entry : tree.map) lower_layers(entry.value, layers);
 }
 
-void lay(Tree& base, const Tree& over) {
-  put_under(base, std::bit_width(layers_in(over)));
+void overlay(Tree& base, const Tree& over) {
+  lower_layers(base, std::bit_width(layers_in(over)));
   merge(base, over);
 }
 
 // Files being read, outermost first, for cycles.
-struct Reading {
+struct OpenFiles {
   std::vector<fs::path> files;
   std::size_t n_parts = 0;
 };
 
-Tree load(const std::string& path, Reading& reading);
+Tree load(const std::string& path, OpenFiles& open_files);
 
-// below a folder that may not be looked into, the name as it is given
+// The canonical name, or the given one if a folder on the way may not be read.
 fs::path own_name(const fs::path& path) {
   std::error_code ec;
   const fs::path canonical = fs::weakly_canonical(path, ec);
@@ -280,32 +292,31 @@ fs::path own_name(const fs::path& path) {
   return canonical;
 }
 
-// What a file that is not there may have been meant for: its present name, or the nearest one
-// beside it.
-std::string meant_for(const fs::path& path) {
+// A hint for a file that does not exist: its present name if it was renamed, or the most similar
+// name in the same folder.
+std::string suggested_file(const fs::path& path) {
   std::error_code ec;
-  std::vector<std::string> beside;
+  std::vector<std::string> siblings;
   for (const auto& entry :
        fs::directory_iterator(path.has_parent_path() ? path.parent_path() : fs::path("."), ec))
-    if (entry.path().extension() == ".yaml") beside.push_back(entry.path().filename().string());
+    if (entry.path().extension() == ".yaml") siblings.push_back(entry.path().filename().string());
   const std::string name = path.filename().string();
   std::string now;
   if (name == "trade.yaml") {
     now = "refinement_study.yaml";
   } else if (name.starts_with("trade_")) {
     now = "refinement" + name.substr(5);
-  } else {
-    now = "";
   }
-  if (std::find(beside.begin(), beside.end(), now) == beside.end()) now = nearest(name, beside);
-  if (now.empty()) return "";
-  return fmt::format("did you mean \"{}\"?", now);
+  if (std::ranges::find(siblings, now) == siblings.end()) now = nearest(name, siblings);
+  return did_you_mean(now);
 }
 
-void resolve_includes(Tree& tree, Reading& reading) {
-  for (Tree& item : tree.list) resolve_includes(item, reading);
+// Replaces `include` by the content of its files: later files override earlier ones, and the keys
+// of the map itself override all of them.
+void resolve_includes(Tree& tree, OpenFiles& open_files) {
+  for (Tree& item : tree.list) resolve_includes(item, open_files);
   for (auto& e : tree.map)
-    if (e.key != "include") resolve_includes(e.value, reading);
+    if (e.key != "include") resolve_includes(e.value, open_files);
   const Tree* include = tree.find("include");
   if (!include) return;
   std::vector<const Tree*> files;
@@ -323,37 +334,40 @@ void resolve_includes(Tree& tree, Reading& reading) {
     std::error_code ec;
     if (!fs::is_regular_file(path, ec))
       refuse(file->place, "include: there is no file " + path.string(),
-             "a path relative to this file", meant_for(path));
-    if (std::find(reading.files.begin(), reading.files.end(), own_name(path)) !=
-        reading.files.end())
+             "a path relative to this file", suggested_file(path));
+    if (std::find(open_files.files.begin(), open_files.files.end(), own_name(path)) !=
+        open_files.files.end())
       refuse(file->place, "include: " + path.string() + " includes itself");
-    const Tree included = load(path.string(), reading);
+    const Tree included = load(path.string(), open_files);
     if (included.kind != Tree::Kind::map)
       refuse(file->place, fmt::format("include: {} holds {}", path.string(), description(included)),
              "a map");
-    lay(base, included);
+    overlay(base, included);
   }
   std::erase_if(tree.map, [](const Tree::Entry& e) { return e.key == "include"; });
-  lay(base, tree);
+  overlay(base, tree);
   tree.map = std::move(base.map);
 }
 
-Tree load(const std::string& path, Reading& reading) {
+Tree load(const std::string& path, OpenFiles& open_files) {
   std::error_code ec;
   if (fs::is_directory(path, ec))
     throw Failure(Exit::input, Error{{path, 0, 0}, "", "this is a folder", "a YAML file", ""});
-  // A pipe of the shell, langer-mesh <(...), has somebody at its other end; any other may wait for
-  // ever.
+  // A pipe of the shell, langer-mesh <(...), has a writer at its other end; reading any other pipe
+  // may never end.
   const bool of_shell = path == "/dev/stdin" || path.starts_with("/dev/fd/");
   if (!of_shell && fs::exists(path, ec) && !fs::is_regular_file(path, ec))
     throw Failure(Exit::input, Error{{path, 0, 0}, "", unreadable_reason(path), "a YAML file", ""});
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Failure(Exit::input,
-                  fs::exists(path, ec)
-                      ? Error{{path, 0, 0}, "", "cannot be read", "", ""}
-                      : Error{{path, 0, 0}, "", "there is no such file", "", meant_for(path)});
-  std::string text;  // by parts: a device has no size, and most files are small
+  if (!file) {
+    Error error{{path, 0, 0}, "", "cannot be read", "", ""};
+    if (!fs::exists(path, ec)) {
+      error.found = "there is no such file";
+      error.hint = suggested_file(path);
+    }
+    throw Failure(Exit::input, error);
+  }
+  std::string text;  // read in parts: a device has no size, and most files are small
   std::array<char, 1 << 14> part;
   do {
     file.read(part.data(), part.size());
@@ -361,24 +375,24 @@ Tree load(const std::string& path, Reading& reading) {
   } while (file && text.size() <= largest_file);
   if (text.size() > largest_file)
     refuse({path, 0, 0}, fmt::format("larger than {} bytes", largest_file), "a YAML file");
-  reading.files.push_back(own_name(path));
-  Tree tree = parse(text, path, fs::path(path).parent_path().string(), reading.n_parts);
-  resolve_includes(tree, reading);
-  reading.files.pop_back();
+  open_files.files.push_back(own_name(path));
+  Tree tree = parse(text, path, fs::path(path).parent_path().string(), open_files.n_parts);
+  resolve_includes(tree, open_files);
+  open_files.files.pop_back();
   return tree;
 }
 
 }  // namespace
 
 Tree load_yaml(const std::string& path) {
-  Reading reading;
-  return load(path, reading);
+  OpenFiles open_files;
+  return load(path, open_files);
 }
 
 Tree parse_yaml(const std::string& text, const std::string& shown_name, const std::string& base) {
-  Reading reading;
-  Tree tree = parse(text, shown_name, base, reading.n_parts);
-  resolve_includes(tree, reading);
+  OpenFiles open_files;
+  Tree tree = parse(text, shown_name, base, open_files.n_parts);
+  resolve_includes(tree, open_files);
   return tree;
 }
 

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/base/text.hpp"
+
 namespace langer {
 
 namespace {
@@ -22,14 +24,22 @@ std::vector<TextLine> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string s; std::getline(stream, s);) {
     const std::size_t first = s.find_first_not_of(" \t\r");
-    lines.push_back({s, first == std::string::npos ? s.size() : first,
-                     first == std::string::npos || s[first] == '#'});
+    const std::size_t indent = std::min(first, s.size());
+    const bool is_empty = indent == s.size() || s[indent] == '#';
+    lines.push_back({s, indent, is_empty});
   }
   return lines;
 }
 
-// a bracket or quote that is open at the end of a line, with its place; quotes of comments do not
-// count
+// The mark that closes a bracket, a brace or a quote.
+char closing(char mark) {
+  if (mark == '[') return ']';
+  if (mark == '{') return '}';
+  return mark;
+}
+
+// A bracket or quote that is open at the end of a line, with its place. Quotes in comments do not
+// count.
 struct Opened {
   std::size_t line = 0, column = 0;
   char mark = 0;
@@ -50,7 +60,7 @@ std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t
                   (k == 0 || std::string(" \t[{,:").find(s[k - 1]) != std::string::npos))) {
         open.push_back({i, k, s[k]});
       } else if ((s[k] == ']' || s[k] == '}') && !open.empty() &&
-                 open.back().mark == (s[k] == ']' ? '[' : '{')) {
+                 closing(open.back().mark) == s[k]) {
         open.pop_back();
       }
     }
@@ -59,8 +69,8 @@ std::optional<Opened> first_open(const std::vector<TextLine>& lines, std::size_t
   return open.front();
 }
 
-// columns at which the blocks that are open before a line begin, ascending; a list's item opens one
-// behind its dash
+// The columns at which the blocks begin that are open before a line, ascending. An item of a list
+// opens a block behind its dash.
 std::vector<std::size_t> levels_before(const std::vector<TextLine>& lines, std::size_t at) {
   std::vector<std::size_t> levels;
   for (std::size_t i = 0; i < at; ++i) {
@@ -76,8 +86,10 @@ std::vector<std::size_t> levels_before(const std::vector<TextLine>& lines, std::
 
 std::string words_of(const std::vector<std::size_t>& levels) {
   std::string s;
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    s += (i == 0 ? "" : i + 1 == levels.size() ? " or " : ", ") + std::to_string(levels[i]);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const bool is_last = i + 1 == levels.size();
+    append(s, is_last ? " or " : ", ", std::to_string(levels[i]));
+  }
   return s;
 }
 
@@ -95,6 +107,8 @@ std::optional<std::size_t> colon_without_blank(const TextLine& line) {
 
 }  // namespace
 
+// yaml-cpp names the place where it gave up, not the mistake. The usual mistakes are looked for in
+// the text before that place: a tab, a missing blank behind a colon, an open bracket, an indent.
 YamlTrouble yaml_trouble(const std::string& text, int line, int column, const std::string& words) {
   const std::vector<TextLine> lines = lines_of(text);
   const auto at = static_cast<std::size_t>(std::max(line, 1) - 1);
@@ -119,10 +133,7 @@ YamlTrouble yaml_trouble(const std::string& text, int line, int column, const st
   if (const auto open = first_open(lines, lines.size()); open && open->line <= last) {
     const auto [row, k] = place(open->line, open->column);
     return {row, k, fmt::format("{} is never closed", open->mark),
-            open->mark == '['   ? "]"
-            : open->mark == '{' ? "}"
-                                : std::string(1, open->mark),
-            ""};
+            std::string(1, closing(open->mark)), ""};
   }
   if (last < lines.size() && !lines[last].empty) {
     const std::vector<std::size_t> levels = levels_before(lines, last);
