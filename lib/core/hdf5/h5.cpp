@@ -28,13 +28,16 @@ OpenFile::~OpenFile() {
     std::remove(current.c_str());
   else if (closed) {
     try {
-      append_seal(current);     // what a run that stops leaves can be told from damage
-    } catch (const Failure&) {  // no room: then nothing tells it, and it is not read
+      // The seal distinguishes the file of a stopped run from a damaged one. Without room for it,
+      // the file counts as incomplete and is not read.
+      append_seal(current);
+    } catch (const Failure&) {
     }
   }
 }
 
-// fixed length: readable everywhere; HDF5 has no string of length zero
+// Strings of fixed length are readable by every tool. HDF5 has no string of length zero, so an
+// empty text is stored as one zero byte.
 Handle string_type(const std::string& text) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, std::max<std::size_t>(1, text.size()));
@@ -44,6 +47,7 @@ Handle string_type(const std::string& text) {
   return type;
 }
 
+// Without times of objects, equal content gives equal bytes.
 Handle creation(hid_t kind) {
   Handle list(H5Pcreate(kind), H5Pclose);
   H5Pset_obj_track_times(list, false);
@@ -66,6 +70,7 @@ std::string Group::full(const std::string& name) const {
 
 namespace {
 
+// HDF5 prints its own stack of errors unless this is switched off; messages are ours.
 void be_quiet() {
   static const bool done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
   (void)done;
@@ -76,8 +81,8 @@ herr_t add_link(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
-// a link on the way to a path leads into another file; soft links are followed, `depth` of them at
-// most
+// Whether a link on the way to a path leads into another file. Soft links are followed, at most
+// `depth` of them, so that a circle of links ends.
 bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
     const std::string begin = path.substr(0, end);
@@ -91,7 +96,8 @@ bool leads_elsewhere(hid_t file, const std::string& path, int depth = 16) {
         return true;
       target = target.c_str();
       if (!target.starts_with('/')) target = begin.substr(0, begin.rfind('/') + 1) + target;
-      return leads_elsewhere(file, target + (end == path.npos ? "" : path.substr(end)), depth - 1);
+      if (end != path.npos) target += path.substr(end);
+      return leads_elsewhere(file, target, depth - 1);
     }
     if (end == path.npos) return false;
   }
@@ -108,7 +114,7 @@ Handle open_object(hid_t file, const std::string& path) {
   return {H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose};
 }
 
-// a run has its journal, and adds to it
+// Whether a run is still adding to the file: it then holds a lock on its journal.
 bool being_written(const std::string& part) {
   const int fd = ::open((part.substr(0, part.size() - 5) + ".steps").c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return false;
@@ -119,6 +125,7 @@ bool being_written(const std::string& part) {
 
 Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
+// Overwrites an attribute of the same type and size, replaces any other.
 void write_attribute(hid_t object, const Group& group, const std::string& name, hid_t type,
                      hid_t space, hid_t memory, const void* values) {
   if (H5Aexists(object, name.c_str()) > 0) {
@@ -136,8 +143,10 @@ void write_attribute(hid_t object, const Group& group, const std::string& name, 
 
 void write_text_attribute(hid_t object, const Group& group, const std::string& name,
                           const std::string& text) {
-  const Handle type = string_type(text), space = scalar();
-  const std::string padded = text.empty() ? std::string(1, '\0') : text;
+  const Handle type = string_type(text);
+  const Handle space = scalar();
+  std::string padded = text;
+  if (text.empty()) padded = std::string(1, '\0');
   write_attribute(object, group, name, type, space, type, padded.data());
 }
 
@@ -165,7 +174,8 @@ void refuse_stored_elsewhere(hid_t dataset, const Group& group, const std::strin
 }
 
 namespace {
-// what kind of object is told by its id: H5O_info_t is another type in each HDF5
+// The names of all objects of one kind. The kind is asked from the id of the object, because
+// H5O_info_t differs between versions of HDF5.
 std::vector<std::string> links(hid_t file, const Group& group, H5I_type_t kind) {
   const Handle here(H5Gopen2(file, group.path().c_str(), H5P_DEFAULT), H5Gclose);
   std::vector<std::string> all, chosen;
@@ -256,11 +266,12 @@ std::string library() {
 namespace {
 
 // The name under which HDF5 opens a file that is open here already. H5Fcreate follows links; this
-// name leads to the open file itself, whatever stands under its path by now.
+// name leads to the open file itself, even if its path has been replaced since.
 std::string name_of_descriptor(int fd, const std::string& path) {
   const std::string name = fmt::format("/proc/self/fd/{}", fd);
   std::error_code none;
-  return std::filesystem::exists(name, none) ? name : path;
+  if (std::filesystem::exists(name, none)) return name;
+  return path;
 }
 
 // Whether HDF5 has opened the same file as `fd`.
@@ -276,6 +287,8 @@ bool is_open_by(hid_t file, int fd) {
 
 }  // namespace
 
+// The .part file is created by us without following links, then opened by HDF5 under the name of
+// the descriptor, and compared: a link that appears in between cannot redirect the output.
 File File::create(const std::string& path, Unfinished unfinished) {
   be_quiet();
   require_own_output(path);
@@ -303,6 +316,8 @@ File File::create(const std::string& path, Unfinished unfinished) {
   return File(file);
 }
 
+// The order of the checks matters: HDF5 1.10 may crash on damaged files, so it sees only those
+// whose seal is whole or that never had one.
 File File::open(const std::string& path) {
   be_quiet();
   const auto refuse = [&](const std::string& found, const std::string& hint) -> void {
@@ -312,7 +327,7 @@ File File::open(const std::string& path) {
   if (!std::filesystem::exists(path, none)) refuse("no such file", "");
   if (std::filesystem::is_directory(path, none)) refuse("is a folder, not a file", "");
   if (!std::filesystem::is_regular_file(path, none)) refuse(unreadable_reason(path), "");
-  // What keeps the system from opening it says nothing about its content.
+  // A file that the system cannot open is not damaged: the message gives the system's reason.
   const int readable = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (readable < 0 && (errno == EMFILE || errno == ENFILE))
     refuse("not opened: this process has too many open files",
@@ -339,6 +354,7 @@ File File::open(const std::string& path) {
 
 void File::flush() const { written(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0, root(), ""); }
 
+// Close, seal, rename: a file has its name only once it is complete.
 void File::commit() {
   const herr_t closed = H5Fclose(file_->id);
   file_->id = -1;

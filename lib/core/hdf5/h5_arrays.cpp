@@ -12,6 +12,8 @@ namespace langer::h5 {
 
 namespace {
 
+// How a C++ type is stored: little-endian in the file, native in memory. `blank` fills rows that
+// were never written.
 template <class T>
 struct Kind;
 template <>
@@ -39,6 +41,7 @@ struct Kind<std::uint8_t> {
   [[maybe_unused]] static constexpr std::uint8_t blank = 255;  // no table of these grows
 };
 
+// The number of values; `any`, the largest number, if it overflows.
 std::size_t product(const Shape& shape) {
   std::size_t n = 1;
   for (std::size_t extent : shape)
@@ -46,6 +49,7 @@ std::size_t product(const Shape& shape) {
   return n;
 }
 
+// Whether two shapes agree, `any` matching every extent.
 bool matches(const Shape& shape, const Shape& expected) {
   return std::equal(shape.begin(), shape.end(), expected.begin(), expected.end(),
                     [](std::size_t a, std::size_t b) { return b == any || a == b; });
@@ -81,6 +85,7 @@ std::optional<Shape> shape_of(hid_t dataset) {
 
 }  // namespace
 
+// A shape that does not fit is a bug of the caller, not of a file.
 template <class T>
 void Group::write(const std::string& name, const Shape& shape, std::span<const T> values,
                   const std::string& unit) const {
@@ -124,6 +129,8 @@ void Group::write_text(const std::string& name, const std::string& text) const {
           *this, name);
 }
 
+// Tables that grow by rows are stored in chunks, of which each is allocated when it is first
+// written.
 template <class T>
 void Group::make_extendible(const std::string& name, const Shape& row, std::size_t rows_per_chunk,
                             const std::string& unit) const {
@@ -146,6 +153,7 @@ void Group::make_extendible(const std::string& name, const Shape& row, std::size
   if (!unit.empty()) annotate(name, "unit", unit);
 }
 
+// Extends the dataset first: a run that is stopped in between leaves blank rows, not missing ones.
 template <class T>
 void Group::append(const std::string& name, std::span<const T> rows) const {
   const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
@@ -182,6 +190,8 @@ Shape Group::shape(const std::string& name) const {
   return *shape;
 }
 
+// `count` rows from `first` on, or the whole dataset if count is `any`. Shape, type and size are
+// checked before memory is allocated: a damaged file may claim any extent.
 template <class T>
 Array<T> Group::read_rows(const std::string& name, std::size_t first, std::size_t count,
                           const Shape& row) const {

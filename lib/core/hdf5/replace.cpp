@@ -13,17 +13,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Files that this run reads and therefore never replaces.
 std::vector<std::string>& spared() {
   static std::vector<std::string> paths;
   return paths;
 }
 
-bool first_time = false;  // the main output of this run was not there
+bool first_time = false;  // the main output did not exist when the run began
 
 [[noreturn]] void refuse(const std::string& path, std::string found, std::string hint) {
   throw Failure(Exit::input, Error{{path}, "", std::move(found), "", std::move(hint)});
 }
 
+// Writing through a symbolic link would change a file of another name.
 void refuse_link(const std::string& path) {
   std::error_code none;
   if (fs::is_symlink(fs::symlink_status(path, none)))
@@ -39,7 +41,8 @@ void refuse_input(const std::string& path) {
              "another name or folder for the output (-o)");
 }
 
-// `words` within the first and last megabyte of a file
+// Whether `words` occur in the first or in the last megabyte of a file, where the attributes of
+// HDF5 files and the seal are.
 bool holds(const std::string& path, const std::string& words) {
   constexpr std::streamoff most = 1 << 20;
   std::ifstream in(path, std::ios::binary | std::ios::ate);
@@ -69,10 +72,9 @@ void require_replaceable(const std::string& path) {
   refuse_link(path);
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
+  if (fs::is_directory(status)) refuse(path, "is a folder", "the name of a file");
   if (fs::exists(status) && !fs::is_regular_file(status))
-    refuse(path,
-           fs::is_directory(status) ? "is a folder" : "is no plain file (a device, FIFO or socket)",
-           "the name of a file");
+    refuse(path, "is no plain file (a device, FIFO or socket)", "the name of a file");
   refuse_input(path);
 }
 
@@ -100,8 +102,9 @@ void require_own_output(const std::string& path) {
   if (begin_of(path, 1).empty()) return;
   const std::string begin = begin_of(path, 15);
   const bool hdf5 = begin.starts_with("\x89HDF\r\n\x1a\n");
-  if (!(hdf5 && (holds(path, "config_hash") || holds(path, "\nlanger seal"))) &&
-      !(begin.starts_with("<!DOCTYPE html>") && holds(path, "langer")))
+  const bool own_hdf5 = hdf5 && (holds(path, "config_hash") || holds(path, "\nlanger seal"));
+  const bool own_report = begin.starts_with("<!DOCTYPE html>") && holds(path, "langer");
+  if (!own_hdf5 && !own_report)
     refuse(path, "is there already and was not made by langer", "another name (-o), or remove it");
 }
 

@@ -1,6 +1,6 @@
-// What a run may write over. Files that it reads are never replaced by what it makes, under
-// whatever name they are reached; nor is what is no plain file (device, FIFO, socket), nor a
-// symbolic link, whose target would stay as it is while the name changes its meaning.
+// Which files a run may overwrite. It never overwrites a file that it reads, under whatever name it
+// is reached; nor a device, FIFO or socket; nor a symbolic link. A file that exists is overwritten
+// only if an earlier run made it.
 #pragma once
 
 #include <string>
@@ -13,24 +13,23 @@ void never_replace(
 // throws Failure(input): one of those, a device, FIFO, socket or link
 void require_replaceable(const std::string& path);
 
-// Of a text beside the main output. One that is there is ours if the main output was there when the
-// run began, or if it begins with the same line: as a table with the same columns does, which a run
-// that was killed left behind.
+// For a text next to the main output. An existing one is ours if the main output existed when the
+// run began, or if it begins with the same line, as a table does that a killed run has left.
 void begin_beside(const std::string& output);
 void require_replaceable_by(const std::string& path, const std::string& text);
 
-// The same of a file that another program makes from `script`, a picture: it is ours if the script
-// is there.
+// For a picture that another program makes from `script`: an existing one is ours if the script
+// exists.
 void require_replaceable_from(const std::string& path, const std::string& script);
 
-// The same of a text, wherever it stands: one that is there has `mark` in it.
+// For a text in any folder: an existing one is ours if it contains `mark`.
 void require_own_text(const std::string& path, const std::string& mark);
 
-// The same of a main output (-o), and that a file that is there was made by langer: HDF5 with our
-// attributes, a report, or nothing in it.
+// For a main output (-o): an existing one is ours if it is HDF5 with our attributes, a report, or
+// empty.
 void require_own_output(const std::string& path);
 
-// The same of a file for --log; devices may be written to. One that is there begins as our logs do.
+// For --log: devices are allowed; an existing file is ours if it begins as our logs do.
 void require_own_log(const std::string& path);
 
 }  // namespace langer

@@ -34,22 +34,23 @@ constexpr std::size_t seal_length = seal_begin.size() + 16 + 1;  // begin, 16 he
       Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", ""});
 }
 
-// the blocks of a file one after another; `take` goes on from the checksum of those before
-template <class Take>
-std::uint64_t over_blocks(std::ifstream& in, std::uintmax_t bytes, const Take& take) {
+// The checksum of a file, block by block: `add(block, h)` continues from the checksum h of the
+// blocks before. A file that cannot be read has the checksum 0.
+template <class Add>
+std::uint64_t checksum_of_blocks(std::ifstream& in, std::uintmax_t bytes, const Add& add) {
   std::uint64_t h = 0xcbf29ce484222325u;
   std::vector<char> block(static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, 1 << 20)));
   while (bytes > 0) {
     const std::size_t n = static_cast<std::size_t>(std::min<std::uintmax_t>(bytes, block.size()));
     if (!in.read(block.data(), static_cast<std::streamsize>(n))) return 0;
-    h = take(std::string_view(block.data(), n), h);
+    h = add(std::string_view(block.data(), n), h);
     bytes -= n;
   }
   return h;
 }
 
-// FNV-1a over words of eight bytes, in files of versions up to 0.2.0: two sign bits that are turned
-// over cancel
+// The checksum of versions up to 0.2.0: FNV-1a over words of eight bytes. It overlooks two flipped
+// sign bits, which cancel.
 std::uint64_t older_checksum(std::string_view bytes, std::uint64_t h) {
   for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(8, bytes.size()))) {
     std::uint64_t word = 0;
@@ -70,11 +71,13 @@ void sync_path(const std::string& path, int flags) {
 
 void append_seal(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const std::string seal = fmt::format("{}{:016x}\n", seal_begin,
-                                       over_blocks(in, std::filesystem::file_size(path), checksum));
+  const std::string seal =
+      fmt::format("{}{:016x}\n", seal_begin,
+                  checksum_of_blocks(in, std::filesystem::file_size(path), checksum));
   if (!append_durably(path, seal)) cannot_write(path);
 }
 
+// A file too short for a seal, or without its line at the end, has none.
 Seal seal_of(const std::string& path) {
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(path, none);
@@ -86,13 +89,15 @@ Seal seal_of(const std::string& path) {
   const bool older = seal.starts_with(older_begin);
   if (!older && !seal.starts_with(seal_begin)) return Seal::none;
   in.seekg(0);
-  const std::uint64_t sum = over_blocks(in, size - seal_length, older ? older_checksum : checksum);
+  const auto sum_of = older ? older_checksum : checksum;
+  const std::uint64_t sum = checksum_of_blocks(in, size - seal_length, sum_of);
   if (seal.substr(seal_begin.size(), 16) != fmt::format("{:016x}", sum)) {
     return Seal::broken;
   }
   return Seal::whole;
 }
 
+// The content is on the disk before the name, so that a crash leaves the old file or the new one.
 void rename_durably(const std::string& from, const std::string& to) {
   sync_path(from, O_RDONLY);
   if (std::rename(from.c_str(), to.c_str()) != 0) cannot_write(to);

@@ -13,8 +13,9 @@ namespace langer {
 
 inline constexpr const char* house_units = "mm N MPa s deg";
 
-// `unit`: that of the values as they are used; the dataset's attribute `unit` or `units`, where it
-// has one, must say the same. "-" and "" there pass: so older versions wrote what nobody had named.
+// `unit`: the unit in which the values are used. The dataset's attribute `unit` or `units`, if it
+// has one, must be the same. "-" and "" pass: older versions wrote them for values without a given
+// unit.
 inline void require_unit(const h5::Group& group, const std::string& name, const std::string& unit) {
   if (unit.empty()) return;
   for (const char* attribute : {"unit", "units"})
@@ -31,8 +32,8 @@ inline bool among_ours(const std::string& unit) {
   return false;
 }
 
-// Of values that are used with the unit that stands beside them: it has to be made of ours, so that
-// tables and pictures of several files have one unit for one name.
+// For values that are used with the unit that their file gives: it has to be composed of ours, so
+// that one name has one unit in tables and pictures of several files.
 inline void require_known_unit(const h5::Group& group, const std::string& name) {
   const std::string unit = group.unit(name);
   std::string word;
