@@ -13,16 +13,23 @@ namespace langer {
 
 namespace {
 
-// each side resampled by itself, so that a line keeps passing through the place
+// Lines that are short around a place and grow towards both sides. Each side is resampled by
+// itself, so that a line keeps passing through the place.
 std::vector<double> around_place(const Block& b, int axis) {
-  const std::size_t k = axis == 0 ? 0 : 1;
-  const double at = b.around->at[k], low = b.origin[axis], high = low + b.size[axis];
+  const auto k = static_cast<std::size_t>(axis / 2);  // of x and z
+  const double at = b.around->at[k];
+  const double low = b.origin[axis];
+  const double high = low + b.size[axis];
   const auto side = [&](double length, std::size_t which) {
     const int n = b.around->n[k][which];
-    const double within = b.around->within[k], even = n > 0 ? length / n : 0;
-    return GradedSide{length, within, within < length ? std::min(b.centre->edge, even) : even, n};
+    const double within = b.around->within[k];
+    double edge = 0;
+    if (n > 0) edge = length / n;
+    if (within < length) edge = std::min(b.centre->edge, edge);
+    return GradedSide{length, within, edge, n};
   };
-  const GradedSide below = side(at - low, 0), above = side(high - at, 1);
+  const GradedSide below = side(at - low, 0);
+  const GradedSide above = side(high - at, 1);
   std::vector<double> lines = lines_around(at, below, above, "geometry.block.centre.edge");
   if (b.around->instead) {
     const auto [n_below, n_above] = (*b.around->instead)[k];
@@ -33,11 +40,12 @@ std::vector<double> around_place(const Block& b, int axis) {
     lines = low_side;
     lines.insert(lines.end(), high_side.begin() + 1, high_side.end());
   }
-  lines.front() = low, lines.back() = high;
+  lines.front() = low;
+  lines.back() = high;
   return lines;
 }
 
-// each layer by itself, by `share` of its cells, as nearly as their number allows
+// Resamples each layer between borders by itself, to `share` of its elements, rounded.
 std::vector<double> resampled_between(const std::vector<double>& lines,
                                       const std::vector<double>& borders, double share) {
   std::vector<double> found{lines.front()}, layer{lines.front()};
@@ -58,10 +66,13 @@ std::vector<double> resampled_between(const std::vector<double>& lines,
   return found;
 }
 
+// Lines of each axis: first graded as the block asks, then moved onto borders of layers and named
+// points. A mesh of a family divides the intervals between these places instead.
 GridLines grid_lines(const Block& b, const Points& points, std::vector<std::string>& notes) {
   GridLines lines;
   for (int i = 0; i < 3; ++i) {
-    const double low = b.origin[i], high = b.origin[i] + b.size[i];
+    const double low = b.origin[i];
+    const double high = b.origin[i] + b.size[i];
     const int n = b.divisions[i];
     if (i != 1 && b.around)
       lines[i] = around_place(b, i);
@@ -74,7 +85,8 @@ GridLines grid_lines(const Block& b, const Points& points, std::vector<std::stri
       lines[i] = even_lines(low, high, n);
     std::vector<Demand> demands;
     double moved_furthest = 0;
-    const std::string axis(1, "xyz"[i]), divisions = fmt::format("geometry.block.divisions[{}]", i);
+    const std::string axis(1, "xyz"[i]);
+    const std::string divisions = fmt::format("geometry.block.divisions[{}]", i);
     const auto pass = [&] {
       const Moved moved = through(lines[i], demands, axis, divisions);
       moved_furthest = std::max(moved_furthest, moved.furthest);
@@ -140,14 +152,13 @@ void name_points(Mesh& mesh, const Points& points) {
     if (!((there - x).norm() <= tolerance))
       throw Failure(
           Exit::config,
-          Error{
-              {},
-              "points." + name,
-              fmt::format(
-                  "no node is there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
-                  (there - x).norm(), there[0], there[1], there[2]),
-              "a point that the geometry has a node at",
-              "move the point, or a radius or side of the geometry through it"});
+          Error{{},
+                "points." + name,
+                fmt::format(
+                    "no node is there; the nearest is {:.3g} mm away, at ({:.6g}, {:.6g}, {:.6g})",
+                    (there - x).norm(), there[0], there[1], there[2]),
+                "a point that the geometry has a node at",
+                "move the point, or a radius or side of the geometry through it"});
     mesh.X[node] = x;
     mesh.node_sets[name] = {node};
   }

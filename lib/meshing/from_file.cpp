@@ -11,19 +11,17 @@ namespace langer {
 
 namespace {
 
+// The ending of a file's name, in lower case.
 std::string kind_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
-  std::string kind;
-  if (dot == std::string::npos) {
-    kind = "";
-  } else {
-    kind = path.substr(dot + 1);
-  }
+  if (dot == std::string::npos) return "";
+  std::string kind = path.substr(dot + 1);
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return kind;
 }
 
-// names stand in paths of keys and of HDF5
+// Names of sets and bodies become parts of keys and of HDF5 paths: letters that would split those
+// are replaced.
 std::string tame(const std::string& name, std::vector<std::string>& notes) {
   std::string s = name;
   for (char& c : s)
@@ -46,7 +44,8 @@ bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
 std::vector<Complaint> FromFile::complaints() const {
   const std::string kind = kind_of(file.path);
   if (kind == "msh" || kind == "inp") {
-    if (edge) return {{"edge", "found together with a mesh", "no edge: the file has its own cells", ""}};
+    if (edge)
+      return {{"edge", "found together with a mesh", "no edge: the file has its own cells", ""}};
     return {};
   }
   if (kind == "step" || kind == "stp" || kind == "stl") {
@@ -58,21 +57,31 @@ std::vector<Complaint> FromFile::complaints() const {
            "other formats: make a hexahedral mesh of them with gmsh"}};
 }
 
-Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
+namespace {
+
+// Meshes are read; solids are meshed by Gmsh with elements of the length `edge`, which counts after
+// scaling.
+Mesh read_by_kind(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
   const std::string& path = from.file.path;
   const std::string kind = kind_of(path);
-  Mesh mesh = kind == "msh" ? read_msh(path, notes)
-              : kind == "inp"
-                  ? read_inp(path, notes)
-                  : read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  if (kind == "msh") return read_msh(path, notes);
+  if (kind == "inp") return read_inp(path, notes);
+  return read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+}
+
+}  // namespace
+
+Mesh mesh_of(const FromFile& from, CellType cells, std::vector<std::string>& notes) {
+  const std::string& path = from.file.path;
+  Mesh mesh = read_by_kind(from, cells, notes);
   if (mesh.type != cells)
-    throw Failure(
-        Exit::config,
-        Error{{},
-              "cells",
-              fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
-              fmt::format("{}: what {} has", names(mesh.type)[static_cast<int>(mesh.type)], path),
-              ""});
+    throw Failure(Exit::config,
+                  Error{{},
+                        "cells",
+                        fmt::format("found {}", names(cells)[static_cast<int>(cells)]),
+                        fmt::format("{}, the elements of {}",
+                                    names(mesh.type)[static_cast<int>(mesh.type)], path),
+                        ""});
   for (Vec3& x : mesh.X) x *= from.scale;
   std::vector<std::string> said;
   tame_names(mesh.facet_sets, said);

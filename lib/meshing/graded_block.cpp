@@ -26,15 +26,14 @@ std::vector<Complaint> GradedBlock::complaints() const {
   if (rings.empty()) found.push_back({"rings", "found an empty list", "at least one ring", ""});
   double inside = core.half_width * std::numbers::sqrt2;
   for (std::size_t i = 0; i < rings.size(); ++i) {
+    const std::string_view inner = i == 0 ? "core's corner" : "ring inside it";
     if (rings[i].radius <= inside)
       found.push_back({fmt::format("rings[{}].radius", i), fmt::format("found {}", rings[i].radius),
-                       fmt::format("more than {:.6g}, the {}", inside,
-                                   i == 0 ? "core's corner" : "ring inside it"),
-                       ""});
+                       fmt::format("more than {:.6g}, the {}", inside, inner), ""});
     inside = rings[i].radius;
   }
   if (const double half = 0.5 * std::min(size[0], size[2]); inside >= half)
-    found.push_back({fmt::format("rings[{}].radius", rings.empty() ? 0 : rings.size() - 1),
+    found.push_back({fmt::format("rings[{}].radius", std::max<std::size_t>(rings.size(), 1) - 1),
                      fmt::format("found {}", inside),
                      fmt::format("less than {}, half the block's width", half), ""});
   return found;
@@ -42,15 +41,12 @@ std::vector<Complaint> GradedBlock::complaints() const {
 
 namespace {
 
-// ratio of neighbours so that the outer cells continue with about the length of the last ring's
+// The ratio of neighbouring elements with which the outer elements continue the last ring: the
+// first of them is about as long as its elements.
 double growth_of(const GradedBlock& b, double from, double to) {
   const std::size_t last = b.rings.size() - 1;
-  double inside = 0;
-  if (last == 0) {
-    inside = b.core.half_width;
-  } else {
-    inside = b.rings[last - 1].radius;
-  }
+  double inside = b.core.half_width;
+  if (last > 0) inside = b.rings[last - 1].radius;
   const double edge = (b.rings[last].radius - inside) / b.rings[last].cells;
   if (edge * b.outer_cells >= to - from) return 1;
   const std::vector<double> lines =
@@ -84,6 +80,8 @@ Loop circle(int n, double radius) {
   return loop;
 }
 
+// The elements of one horizontal layer, from the core outwards. inner_ holds the points of the last
+// loop, to which the next one is joined.
 class PlanMaker {
  public:
   explicit PlanMaker(const GradedBlock& b)
@@ -103,8 +101,8 @@ class PlanMaker {
       }
   }
 
-  // `cells` loops of cells between two loops of points, each longer than the one inside it by
-  // `growth`
+  // `cells` loops of elements between two loops of points. Each is longer by the factor `growth`
+  // than the one inside it.
   void surround(const Loop& from, const Loop& to, int cells, double growth) {
     double step = 1, whole = 0, part = 0;
     for (int c = 0; c < cells; ++c) {
@@ -115,12 +113,8 @@ class PlanMaker {
     for (int c = 0; c < cells; ++c) {
       part += step;
       step *= growth;
-      double v = 0;
-      if (c + 1 == cells) {
-        v = 1;
-      } else {
-        v = part / whole;
-      }
+      double v = 1;  // exactly on the outer loop at the end
+      if (c + 1 < cells) v = part / whole;
       std::vector<int> outer;
       for (std::size_t p = 0; p < from.size(); ++p)
         outer.push_back(

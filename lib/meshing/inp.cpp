@@ -1,5 +1,5 @@
-// A mesh of what an Abaqus or CalculiX input file says (inp_model.hpp): instances are placed, their
-// nodes and cells get our numbers, sets and bodies their names.
+// The mesh of an Abaqus or CalculiX input file, of which inp_model.hpp holds the content: instances
+// are placed, their nodes and cells get our numbers, sets and bodies their names.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +27,7 @@ namespace {
 
 using Numbers = std::map<long long, int>;  // the file's number of a node or cell: ours
 
-// One that has nodes of its own: the model, or an instance.
+// A scope with nodes of its own: the model, or an instance.
 struct Placed {
   const InpScope* scope = nullptr;
   const InpInstance* instance = nullptr;  // none: the model
@@ -117,6 +117,8 @@ class Builder {
 
   // ---- nodes and cells
 
+  // Cells get numbers in the order of the file's scopes and numbers. Cells with corners only, or
+  // without middle nodes of faces, are raised to our cells by new nodes.
   void add_cells() {
     std::vector<Vec3> X;
     std::vector<int> connectivity;  // in our order
@@ -203,6 +205,7 @@ class Builder {
         n_reversed, mesh_.n_cells(), id, place.file, place.line));
   }
 
+  // A cell that is folded after turning has no sensible mirror image either.
   void refuse_folded_cells() {
     const Quality found = quality(mesh_);
     if (found.least_jacobian > 0) return;
@@ -315,7 +318,8 @@ class Builder {
     }
   }
 
-  // What has no name is one body. Of several instances each is a body of its own.
+  // Cells without a body form one body without a name; those of several instances form one body for
+  // each instance, named after it.
   void name_cells_without_body() {
     std::vector<const Placed*> without;
     for (const Placed& one : placed_) {
@@ -338,6 +342,7 @@ class Builder {
 
   // ---- facets
 
+  // *SURFACE: facets given by cells and sides.
   void add_surfaces() {
     Names names;
     for (const Placed& one : placed_) {

@@ -37,6 +37,8 @@ std::optional<int> nodes_of_face(const std::string& type) {
   return std::nullopt;
 }
 
+// Reads cards (*NODE, *ELEMENT, ...) and their data lines into scopes: the model, a part or an
+// instance. A part has its own numbers and names; an instance copies them and may add more.
 class ModelReader {
  public:
   explicit ModelReader(InpScanner& scanner) : scanner_(scanner) {}
@@ -82,6 +84,8 @@ class ModelReader {
 
   // ---- cards
 
+  // Cards that generate nodes or elements by a rule are refused: leaving them out would silently
+  // give another mesh. Cards without a mesh (steps, materials) are noted and left out.
   void begin(const InpCard& card) {
     card_ = card;
     const std::string& word = card.word;
@@ -124,6 +128,7 @@ class ModelReader {
     block_ = Block::part;
   }
 
+  // An instance begins as a copy of its part.
   void begin_instance() {
     const std::string name = card_.value("NAME");
     const std::string part = upper_case(card_.value("PART"));
@@ -152,6 +157,7 @@ class ModelReader {
     block_ = Block::instance;
   }
 
+  // Cells of one kind only; plane elements mark facets; all others are left out with a note.
   void begin_elements() {
     const std::string type = upper_case(card_.value("TYPE"));
     if (const auto kind = inp_cell(type)) {
@@ -231,6 +237,7 @@ class ModelReader {
     }
   }
 
+  // Missing coordinates are 0, as in Abaqus.
   void read_node(const InpLine& line) {
     if (line.cells.size() < 2) {
       refuse_inp(line.place, "found \"" + line.text + "\"", "number, x, y, z");
@@ -258,6 +265,7 @@ class ModelReader {
     if (static_cast<int>(element_.size()) > nodes_of_element_) end_element();
   }
 
+  // Stores the element whose nodes have been read; called at its last node and at the next card.
   void end_element() {
     if (element_.empty()) return;
     const int found = static_cast<int>(element_.size()) - 1;
@@ -268,7 +276,8 @@ class ModelReader {
     }
     const long long id = element_[0];
     InpElement element{{element_.begin() + 1, element_.end()}, element_place_};
-    if (faces_) element.nodes.resize(nodes_of_element_ % 4 == 0 ? 4 : 3);  // its corners
+    // of a face only its corners count: 4 of 4 or 8 nodes, 3 of 3 or 6
+    if (faces_) element.nodes.resize(nodes_of_element_ % 4 == 0 ? 4 : 3);
     if (scope().cells.count(id) || scope().faces.count(id)) {
       refuse_inp(element_place_, fmt::format("element {} is there twice", id));
     }
@@ -331,6 +340,7 @@ class ModelReader {
     }
   }
 
+  // GENERATE: first, last, step.
   InpMembers read_range(const InpLine& line, int instance) const {
     const std::vector<std::string>& cells = line.cells;
     if (cells.size() < 2) refuse_inp(line.place, "one number", "first, last, step");
@@ -426,7 +436,7 @@ class ModelReader {
     instance.rotation = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   }
 
-  // A file without any instance means its parts as they are.
+  // Without any instance, each part is an instance of itself where it is.
   void place_parts() {
     const bool none = model_.instances.empty();
     for (auto& [key, part] : parts_) {

@@ -16,6 +16,8 @@
 #include "meshing/msh_mesh.hpp"
 #include "meshing/parse_msh.hpp"
 
+// The mesh of a Gmsh model (msh_model.hpp): its groups become bodies, facet sets and node sets.
+// Nodes and cells are numbered by ascending tag, so that the order of the file does not matter.
 namespace langer {
 
 namespace {
@@ -149,6 +151,7 @@ class MeshBuilder {
     }
   }
 
+  // A group of dimension 3 is a body. A cell has one body only.
   void add_body(const MshGroup& group) {
     const int body = static_cast<int>(mesh_.bodies.size());
     mesh_.bodies.push_back(group.name);
@@ -176,6 +179,7 @@ class MeshBuilder {
     mesh_.bodies.push_back("");
   }
 
+  // The facet of each set of corners, needed once there is a group of surfaces.
   void find_facets() {
     if (!facet_at_.empty()) return;
     for (int e = mesh_.n_cells() - 1; e >= 0; --e)  // of two cells that share one the first
@@ -183,6 +187,7 @@ class MeshBuilder {
         facet_at_[facet_key(mesh_, {e, f})] = {e, f};
   }
 
+  // A group of dimension 2: its faces have to be facets of cells.
   void add_facet_set(const MshGroup& group) {
     find_facets();
     std::vector<Facet> facets;
@@ -225,6 +230,7 @@ class MeshBuilder {
     name_facets(mesh_, group.name, facets);
   }
 
+  // A group of points or curves: the nodes of its elements that cells have.
   void add_node_set(const MshGroup& group) {
     std::set<int> nodes;
     for (const std::size_t tag : group.nodes) {

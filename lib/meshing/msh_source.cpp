@@ -9,9 +9,12 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 
 namespace langer {
 
+// Errors name the line and column of the last word. at_ is the next byte; line_begin_ and
+// next_line_number_ follow it, line_ and column_ belong to the word that was read last.
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
@@ -64,6 +67,7 @@ void MshSource::skip_blanks(bool over_lines) {
   }
 }
 
+// Notes the place of the next word for messages. Long lines have a largest column.
 void MshSource::start_text() {
   line_ = next_line_number_;
   column_ = static_cast<int>(std::min<std::size_t>(at_ - line_begin_, 1 << 20)) + 1;
@@ -78,6 +82,7 @@ std::string_view MshSource::next_line() {
   return trimmed(line);
 }
 
+// The rest of the line has to be empty: a count with something behind it is a damaged file.
 void MshSource::finish_line() {
   skip_blanks(false);
   start_text();
@@ -103,6 +108,7 @@ void MshSource::end_section(const char* name) {
          "the number at the beginning of the section must be that of its items");
 }
 
+// A section whose end is missing is refused rather than read to the end of the file.
 void MshSource::skip_section(std::string_view name) {
   const std::string end = fmt::format("$End{}", name);
   const std::size_t found = bytes_.find(end, at_);
@@ -116,6 +122,7 @@ void MshSource::skip_section(std::string_view name) {
   at_ = found + end.size();
 }
 
+// Names appear in messages and files: control characters and overlong names are refused.
 std::string MshSource::quoted_name() {
   const char* expected = "a name between double quotes";
   skip_blanks(false);
@@ -124,7 +131,7 @@ std::string MshSource::quoted_name() {
   const std::string_view text = trimmed(bytes_.substr(at_, end - at_));
   at_ = end;
   if (text.size() < 2 || text.front() != '"' || text.back() != '"')
-    refuse(fmt::format("found {}", text.empty() ? "no name" : shown(text)), expected);
+    refuse("found " + text_or(shown(text), "no name"), expected);
   const std::string_view name = text.substr(1, text.size() - 2);
   for (const char c : name) {
     const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7f';
@@ -160,6 +167,7 @@ std::int64_t MshSource::text_integer(const char* what) {
   return value;
 }
 
+// A value of a binary file, in the order of bytes of this machine (the format section checks it).
 template <class Value>
 Value MshSource::raw(const char* what) {
   if (remaining() < sizeof(Value))
@@ -206,12 +214,18 @@ double MshSource::number(const char* what) {
 }
 
 std::size_t MshSource::tag(const char* what, bool is_long) {
-  const std::int64_t value = is_long ? long_integer(what) : integer(what);
+  std::int64_t value = 0;
+  if (is_long)
+    value = long_integer(what);
+  else
+    value = integer(what);
   if (value < 1 || value > std::numeric_limits<std::int32_t>::max())
     refuse(fmt::format("found {} for {}", value, what), "a number from 1 to 2147483647");
   return static_cast<std::size_t>(value);
 }
 
+// A count is believed only if the rest of the file can hold that many items: nothing is allocated
+// for a number that a damaged file gives.
 std::size_t MshSource::checked_count(std::int64_t value, const char* what, std::size_t bytes_each,
                                      std::size_t words_each) {
   // a word of a text takes its letter and a blank; the last one may end the file

@@ -36,6 +36,12 @@ void add_element(std::vector<MshElements>& lists, const MshType& type, std::size
   list->lines.push_back(line);
 }
 
+// Reads the sections of a file in their order. Format 1 and 2 have lists of nodes and elements;
+// format 4 has blocks of them, one for each entity (point, curve, surface or volume of the
+// geometry), and the groups of an entity stand in a section of their own.
+//
+// The file is not trusted: every count is compared with the bytes that are left before anything is
+// allocated, and every number with its range.
 class MshParser {
  public:
   MshParser(std::string_view bytes, const std::string& shown_name) : in_(bytes, shown_name) {}
@@ -73,6 +79,7 @@ class MshParser {
 
   bool is_4_1() const { return version_ == 4.1; }
 
+  // Sections that hold no mesh, such as results, are skipped.
   void read_section(std::string_view line) {
     const std::string_view name = line.substr(1);
     const bool is_section =
@@ -102,6 +109,8 @@ class MshParser {
     read_nodes(std::string(name));
   }
 
+  // "4.1 0 8": version, kind (1: binary) and bytes of a real number. A binary file shows its order
+  // of bytes by the integer 1.
   void read_format() {
     if (version_ != 0) in_.refuse("$MeshFormat again", "it once");
     in_.finish_line();
@@ -134,6 +143,7 @@ class MshParser {
     in_.end_section("MeshFormat");
   }
 
+  // Physical names: dimension, number and "name" of each group.
   void read_names() {
     const std::size_t n = in_.text_count("the number of names", 4, 2);
     for (std::size_t i = 0; i < n; ++i) {
@@ -178,6 +188,7 @@ class MshParser {
 
   // ---- entities (version 4) ----
 
+  // Entities only matter for the groups that they belong to: places, parts and bounds are skipped.
   void skip_integers(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) in_.integer("an entity's number");
   }
@@ -223,6 +234,7 @@ class MshParser {
     if (dim > 0) skip_integers(in_.count("the number of bounding entities", int_size, 1));
   }
 
+  // The physical groups of an entity; none if it has not been listed.
   const std::vector<int>& groups_of(int dim, int entity) const {
     static const std::vector<int> none;
     const auto found = groups_of_entity_.find({dim, entity});
@@ -319,6 +331,7 @@ class MshParser {
     for (int k = 0; k < n_parameters; ++k) in_.number("a node's parameter");
   }
 
+  // Format 4.1 gives the range of the numbers, which is not needed.
   void skip_range() {
     in_.long_integer("the least number");
     in_.long_integer("the largest number");
@@ -367,13 +380,11 @@ class MshParser {
     }
   }
 
+  // Cells go into the list of cells. Elements of a group are kept as the group's faces if they have
+  // two or three dimensions, otherwise as its nodes.
   void add_to_model(const MshType& type, std::size_t element, const std::vector<int>& groups) {
-    int line = 0;
-    if (in_.is_binary) {
-      line = 0;
-    } else {
-      line = in_.line();
-    }
+    int line = 0;  // of a binary file: none
+    if (!in_.is_binary) line = in_.line();
     if (type.dim == 3) add_element(model_.cells, type, element, nodes_of_element_, line);
     for (const int tag : groups) {
       MshGroup& of = group(type.dim, tag);

@@ -1,3 +1,5 @@
+// Coarser and finer versions of a geometry: of all boxes and blocks whose numbers of elements are
+// known. Estimates of the discretisation error compare their results.
 #include <algorithm>
 #include <cmath>
 
@@ -8,22 +10,34 @@ namespace langer {
 
 namespace {
 
-// An even number stays even, so that a line keeps passing through the middle, unless it is too
-// small to be divided by little.
+// An even number stays even, so that a line keeps passing through the middle. Numbers below 8 are
+// too small for that: half of them could only change by large factors.
+bool stays_even(int divisions) { return divisions % 2 == 0 && divisions >= 8; }
+
+// A direction with one element keeps it (0 for divided(): left out).
 template <class Box>
 void lengthen(Box& box, double factor) {
   std::vector<int> n;
-  const auto halved = [](int divisions) {
-    return divisions % 2 == 0 && divisions >= 8;
-  };
-  for (int divisions : box.divisions)
-    n.push_back(divisions == 1 ? 0 : halved(divisions) ? divisions / 2 : divisions);
+  for (int divisions : box.divisions) {
+    if (divisions == 1)
+      n.push_back(0);
+    else if (stays_even(divisions))
+      n.push_back(divisions / 2);
+    else
+      n.push_back(divisions);
+  }
   n = divided(n, factor);
   box.instead = box.divisions;
-  for (std::size_t i = 0; i < n.size(); ++i)
-    (*box.instead)[i] = box.divisions[i] == 1 ? 1 : halved(box.divisions[i]) ? 2 * n[i] : n[i];
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    int& number = (*box.instead)[i];
+    if (stays_even(box.divisions[i]))
+      number = 2 * n[i];
+    else if (box.divisions[i] != 1)
+      number = n[i];
+  }
 }
 
+// `factor` multiplies the length of all elements; meshes of a family have a length of their own.
 template <class Box>
 void scale(Box& box, double factor) {
   if (box.family) {
@@ -31,10 +45,11 @@ void scale(Box& box, double factor) {
     return;
   }
   for (int& n : box.divisions) {
-    const bool even = n % 2 == 0;
-    if (n > 1)
-      n = even ? 2 * std::max(1L, std::lround(0.5 * n / factor))
-               : std::max(1L, std::lround(n / factor));
+    if (n <= 1) continue;
+    if (n % 2 == 0)
+      n = static_cast<int>(2 * std::max(1L, std::lround(0.5 * n / factor)));
+    else
+      n = static_cast<int>(std::max(1L, std::lround(n / factor)));
   }
   if (box.centre) box.centre->edge *= factor;
   if (box.top) box.top->edge *= factor;
@@ -77,7 +92,8 @@ void put_in_family(Geometry& geometry, const std::array<std::vector<double>, 3>&
 
 MeshFamily* family_of(Geometry& geometry) {
   const auto of = [](auto* with_family) -> MeshFamily* {
-    return with_family && with_family->family ? &*with_family->family : nullptr;
+    if (!with_family || !with_family->family) return nullptr;
+    return &*with_family->family;
   };
   if (MeshFamily* family = of(std::get_if<Block>(&geometry))) return family;
   if (MeshFamily* family = of(std::get_if<SectionBox>(&geometry))) return family;
