@@ -8,13 +8,14 @@
 namespace langer {
 
 Vec3 indenter_displacement(const RigidContact& contact, double t, double travel) {
-  const Vec3 moved = contact.motion.empty() ? Vec3(Vec3::Zero()) : value_at(contact.motion, t);
+  Vec3 moved = Vec3::Zero();
+  if (!contact.motion.empty()) moved = value_at(contact.motion, t);
   if (contact.control) return Vec3(moved + travel * contact.control->along);
   return moved;
 }
 
 Mat3 contact_frame(const Vec3& n) {
-  // the axis least aligned with n keeps the frame well defined everywhere
+  // the axis that is least aligned with n: the cross product never vanishes
   int axis = 0;
   n.cwiseAbs().minCoeff(&axis);
   Mat3 frame;
@@ -24,6 +25,8 @@ Mat3 contact_frame(const Vec3& n) {
   return frame;
 }
 
+// Derivatives of gap and slip, and of a reaction that turns with the frame, for a movement d of the
+// node. Both follow from the curvature of the shape.
 LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Vec3& x0,
                             const Vec3& c, const Vec3& c0, const Vec3& r) {
   LinearisedContact out;
@@ -47,8 +50,9 @@ LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Ve
 Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new) {
   const Vec3 axis = n_old.cross(n_new);
   const double cosine = n_old.dot(n_new);
-  if (cosine <= -0.5)
-    return r;  // a leap across the indenter: no meaningful rotation, the next iteration decides
+  // A node that has jumped across the indenter has no meaningful rotation: the next iteration
+  // decides.
+  if (cosine <= -0.5) return r;
   return cosine * r + axis.cross(r) + axis * (axis.dot(r) / (1 + cosine));
 }
 
@@ -72,8 +76,8 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     motion = std::max(motion, (u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0)).norm());
     moved = std::max(moved, u.segment<3>(3 * node).norm());
   }
-  // where the indenter rests, all movement of the increment is rounding of displacements that are
-  // there: no scale for slip
+  // If nothing moves in the increment, the measured motion is rounding: then the displacements
+  // give the scale.
   motion = std::max(motion, 1e-2 * moved);
   const double tiny = std::numeric_limits<double>::min();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -83,7 +87,8 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const double g = shape.gap;
     defect.gap.push_back(g);
     const bool closed = r[i].squaredNorm() > 0;
-    defect.penetration = std::max(defect.penetration, closed ? std::abs(g) : -g);
+    const double violation = closed ? std::abs(g) : -g;
+    defect.penetration = std::max(defect.penetration, violation);
     if (!closed) {
       defect.status.push_back(ContactStatus::open);
       ++defect.open;
@@ -92,28 +97,31 @@ ContactDefect contact_defect(const RigidContact& contact, const std::vector<Vec3
     const Vec3& n = shape.normal;
     const Vec3 v = u.segment<3>(3 * node) - u0.segment<3>(3 * node) - (c - c0);
     const Vec3 x_t = v - v.dot(n) * n;
-    // a sphere of 1e5 mm knows its gap to 1e-11 mm: what is below the rounding of the positions is
-    // no gap
-    const double curved = shape.curvature.norm(),
-                 far = x.norm() + c.norm() + (curved > 0 ? 1 / curved : 0);
+    // A gap below the rounding of the positions counts as zero. For a sphere of 1e5 mm that is
+    // 1e-11 mm.
+    const double curved = shape.curvature.norm();
+    double radius = 0;
+    if (curved > 0) radius = 1 / curved;
+    const double far = x.norm() + c.norm() + radius;
     double seen = 0;
     if (std::abs(g) > 8 * std::numeric_limits<double>::epsilon() * far) seen = g;
     const double r_n = r[i].dot(n);
     const double r_t = (r[i] - r_n * n).norm();
     const double slip = x_t.norm();
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
-    // frictionless: only the normal part does work against the law
-    double power = 0;
-    if (contact.mu > 0) {
-      power = r[i].dot(x_t) + r_n * (seen + contact.mu * slip);
-    } else {
-      power = r_n * seen;
-    }
+    // the complementarity product; without friction only its normal part
+    double power = r_n * seen;
+    if (contact.mu > 0) power = r[i].dot(x_t) + r_n * (seen + contact.mu * slip);
     defect.complementarity =
         std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
     const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
-    defect.status.push_back(sticks ? ContactStatus::stick : ContactStatus::slip);
-    ++(sticks ? defect.stick : defect.slip);
+    if (sticks) {
+      defect.status.push_back(ContactStatus::stick);
+      ++defect.stick;
+    } else {
+      defect.status.push_back(ContactStatus::slip);
+      ++defect.slip;
+    }
     defect.force += r[i];
   }
   return defect;

@@ -1,12 +1,12 @@
-// A rigid indenter against nodes of the body: kinematics, linearisation and what is left of the law
-// at a state.
+// A rigid indenter against nodes of the body: kinematics, linearisation, and the error with which a
+// state satisfies the contact law.
 //                                                                                      [A23] section 2.4
 // At a candidate with position x and start-of-increment position x0, the indenter displaced by c
 // (c0 at the start):
 //   gap g and normal n of the shape at x - c;   v = (x - x0) - (c - c0);   slip x_t = v - (v.n) n
 // The law holds at the END of the increment: x_n is the gap there, x_t the slip of the whole
-// increment. An indenter that turns about its axis of revolution keeps its shape: only the slip
-// knows. What touched it at x0 goes to
+// increment. An indenter that turns about its axis of revolution keeps its shape; only the slip
+// changes. A point of its surface at x0 moves to
 //   x0 + (R - 1)(x0 - c0 - p),  p a point of the axis, R the rotation of the increment,
 // and the slip is measured from there (Statics::begin).
 // Reactions r are global vectors acting on the body; r_n = r.n >= 0.
@@ -26,7 +26,7 @@ namespace langer {
 
 using Waypoint = HistoryPoint<Vec3>;  // displacement of the indenter [mm]
 
-// An indenter that is pushed: its travel along a direction is unknown, the sum of its reactions
+// Force control: the travel of the indenter along a direction is unknown, the sum of its reactions
 // along it is given.
 struct ForceControl {
   Vec3 along = -Vec3::UnitY();  // of length 1
@@ -54,8 +54,8 @@ struct RigidContact {
 // travel: along the direction of its control [mm]
 Vec3 indenter_displacement(const RigidContact& contact, double t, double travel = 0);
 
-// How far the indenter's rotation by `angle` takes what is at x and sticks to it; the indenter is
-// displaced by c [mm].
+// The displacement of a point at x that sticks to an indenter while this turns by `angle`; c is the
+// displacement of the indenter [mm].
 inline Vec3 carried(const RigidContact& contact, double angle, const Vec3& x, const Vec3& c) {
   if (!contact.rotation || angle == 0) return Vec3::Zero();
   return turned_by(contact.rotation->axis.along, angle, x - c - contact.rotation->axis.point);
@@ -64,7 +64,8 @@ inline Vec3 carried(const RigidContact& contact, double angle, const Vec3& x, co
 // Orthonormal columns n, t1, t2.
 Mat3 contact_frame(const Vec3& n);
 
-// A candidate's law, linearised for a movement d of the node, in local components (n, t1, t2):
+// The contact of one candidate, linearised for a movement d of the node, in local components (n,
+// t1, t2):
 //   position  x = q + T d,   reaction force  r + D d  (it turns with the frame)
 struct LinearisedContact {
   Mat3 frame;  // columns n, t1, t2
@@ -78,7 +79,7 @@ LinearisedContact linearise(const RigidContact& contact, const Vec3& x, const Ve
 // r turned by the smallest rotation that takes n_old to n_new
 Vec3 turn_with_normal(const Vec3& r, const Vec3& n_old, const Vec3& n_new);
 
-// What is left of the law at a state.
+// How well a state satisfies the contact law: each measure is zero if it does so exactly.
 struct ContactDefect {
   double penetration = 0;  // largest -gap, or |gap| where there is a reaction [mm]
   double cone = 0;         // largest of |r_t| - mu r_n and -r_n, relative to the largest reaction
@@ -89,7 +90,7 @@ struct ContactDefect {
   std::vector<ContactStatus> status;
   std::vector<double> gap;  // [mm]
 };
-// What the indenter, displaced by c, turns the body with about its axis [N mm]. x: position of the
+// The torque of the indenter, displaced by c, on the body about its axis [N mm]. x: position of the
 // candidates
 double torque(const RigidContact& contact, const std::function<Vec3(int node)>& x, const Vec3& c,
               const std::vector<Vec3>& r);

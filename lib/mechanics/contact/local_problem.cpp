@@ -12,8 +12,8 @@ namespace langer {
 
 namespace {
 
-// 1.5 / largest eigenvalue of W_ii: the Gauss-Seidel step on one contact then contracts without
-// tuning
+// rho of each contact: 1.5 over the largest eigenvalue of its block W_ii. With it the Gauss-Seidel
+// step on one contact contracts, so that nothing has to be tuned.
 VecX step_lengths(const LocalProblem& problem) {
   VecX rho(problem.n_contacts());
   for (int i = 0; i < rho.size(); ++i) {
@@ -21,17 +21,14 @@ VecX step_lengths(const LocalProblem& problem) {
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(0.5 * (W_ii + W_ii.transpose()),
                                                     Eigen::EigenvaluesOnly);
     const double largest = eigen.eigenvalues()[2];
-    if (largest > 0) {
-      rho[i] = 1.5 / largest;
-    } else {
-      rho[i] = 1;
-    }
+    rho[i] = 1;
+    if (largest > 0) rho[i] = 1.5 / largest;
   }
   return rho;
 }
 
-// projection of tau = r - rho (x_t + (x_n + mu |x_t|) n); without friction only the normal part
-// counts
+// The projection of  r - rho (x_t + (x_n + mu |x_t|) n)  on the cone. The solution is the reaction
+// that this map leaves unchanged. Without friction only the normal part counts.
 ConeProjection trial(const Vec3& r, const Vec3& x, double rho, double mu) {
   if (mu == 0) return project_on_cone(Vec3(r[0] - rho * x[0], 0, 0), 0);
   const double x_t = std::hypot(x[1], x[2]);
@@ -39,9 +36,11 @@ ConeProjection trial(const Vec3& r, const Vec3& x, double rho, double mu) {
                          mu);
 }
 
-// an indefinite W lets the sweeps run away
+// An indefinite W lets the reactions grow without end.
 bool diverged(const Eigen::Ref<const VecX>& r) { return !(r.lpNorm<Eigen::Infinity>() < 1e100); }
 
+// The largest change that the map `trial` makes, relative to the largest reaction; without any
+// reaction relative to rho |q|.
 double residual_of(const LocalProblem& problem, const VecX& rho, const VecX& r,
                    std::vector<ContactStatus>* status) {
   if (diverged(r)) return std::numeric_limits<double>::infinity();
@@ -57,18 +56,20 @@ double residual_of(const LocalProblem& problem, const VecX& rho, const VecX& r,
     scale = std::max(scale, rho[i] * std::abs(problem.q[3 * i]));
   }
   if (!std::isfinite(defect)) return std::numeric_limits<double>::infinity();
-  return defect / std::max(largest > 0 ? largest : scale, std::numeric_limits<double>::min());
+  if (largest > 0) scale = largest;
+  return defect / std::max(scale, std::numeric_limits<double>::min());
 }
 
-void sweep(const LocalProblem& problem, const VecX& rho, VecX& r) {
+void gauss_seidel_sweep(const LocalProblem& problem, const VecX& rho, VecX& r) {
   for (int i = 0; i < problem.n_contacts(); ++i) {
     const Vec3 x = problem.W.middleRows<3>(3 * i) * r + problem.q.segment<3>(3 * i);
     r.segment<3>(3 * i) = trial(r.segment<3>(3 * i), x, rho[i], problem.mu[i]).r;
-    if (diverged(r.segment<3>(3 * i)))
-      return;  // contact after contact would take it beyond what a double holds
+    // one more contact could overflow
+    if (diverged(r.segment<3>(3 * i))) return;
   }
 }
 
+// The function F of each contact whose root is the solution (alart_curnier.hpp).
 std::vector<AlartCurnier> laws_at(const LocalProblem& problem, const VecX& rho, const VecX& r) {
   const VecX x = problem.W * r + problem.q;
   std::vector<AlartCurnier> laws;
@@ -84,14 +85,14 @@ double size_of(const std::vector<AlartCurnier>& laws) {
   return std::sqrt(sum);
 }
 
-// Change of the reactions of the closed contacts that Newton's method asks for where the others
-// change by dr_open.
+// Newton's step for the reactions of the closed contacts while those of the open ones change by
+// dr_open.
 std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho,
                                 const std::vector<AlartCurnier>& laws,
                                 const std::vector<int>& closed, const VecX& dr_open) {
   const int m = static_cast<int>(closed.size());
-  const VecX moved =
-      dr_open.isZero(0) ? VecX(VecX::Zero(dr_open.size())) : VecX(problem.W * dr_open);
+  VecX moved = VecX::Zero(dr_open.size());
+  if (!dr_open.isZero(0)) moved = problem.W * dr_open;
   VecX b(3 * m);
   MatX J(3 * m, 3 * m);
   for (int p = 0; p < m; ++p) {
@@ -99,7 +100,8 @@ std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho,
     b.segment<3>(3 * p) =
         -laws[i].F - laws[i].change(Vec3(Vec3::Zero()), Vec3(rho[i] * moved.segment<3>(3 * i)));
     for (int q = 0; q < m; ++q) {
-      const Mat3 dr = q == p ? Mat3(Mat3::Identity()) : Mat3(Mat3::Zero());
+      Mat3 dr = Mat3::Zero();
+      if (q == p) dr = Mat3::Identity();
       J.block<3, 3>(3 * p, 3 * q) =
           laws[i].change(dr, Mat3(rho[i] * problem.W.block<3, 3>(3 * i, 3 * closed[q])));
     }
@@ -111,7 +113,7 @@ std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho,
   return std::nullopt;
 }
 
-// One damped Newton step; false where no step length lowers |F|.
+// One damped semismooth Newton step. False if no step length reduces |F| enough.
 bool newton_step(const LocalProblem& problem, const VecX& rho, VecX& r) {
   const std::vector<AlartCurnier> laws = laws_at(problem, rho, r);
   const double before = size_of(laws);
@@ -139,22 +141,23 @@ bool newton_step(const LocalProblem& problem, const VecX& rho, VecX& r) {
   return false;
 }
 
-// put each reaction on its cone exactly
-void snap(const LocalProblem& problem, VecX& r) {
-  for (int i = 0; i < problem.n_contacts(); ++i)
-    r.segment<3>(3 * i) =
-        project_on_cone(problem.mu[i] == 0 ? Vec3(r[3 * i], 0, 0) : Vec3(r.segment<3>(3 * i)),
-                        problem.mu[i])
-            .r;
+// Projects each reaction on its cone, so that the law holds exactly.
+void project_reactions(const LocalProblem& problem, VecX& r) {
+  for (int i = 0; i < problem.n_contacts(); ++i) {
+    Vec3 r_i = r.segment<3>(3 * i);
+    if (problem.mu[i] == 0) r_i = Vec3(r[3 * i], 0, 0);
+    r.segment<3>(3 * i) = project_on_cone(r_i, problem.mu[i]).r;
+  }
 }
 
-// Sweeps and Newton steps in turn, until the natural map is small or the budget is spent; r gets
-// the best seen.
-void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const LocalOptions& options,
-               LocalReport& report) {
+// Rounds of Gauss-Seidel sweeps, which find the status of each contact, and of Newton steps, which
+// then converge quadratically. Ends when the residual is small or the budget is spent; r gets the
+// best iterate.
+void gauss_seidel_newton(const LocalProblem& problem, const VecX& rho, VecX& r,
+                         const LocalOptions& options, LocalReport& report) {
   VecX best = r;
   double least = residual_of(problem, rho, r, nullptr);
-  const auto judge = [&] {
+  const auto update_best = [&] {
     if (diverged(r)) r = best;
     const double residual = residual_of(problem, rho, r, nullptr);
     if (residual < least) {
@@ -163,29 +166,28 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
     }
     return residual;
   };
-  int round = 12;  // sweeps between attempts of Newton; grows, so that hard problems get the
-                   // patience they need
+  int round = 12;  // sweeps before Newton is tried; doubled after each failure
   int sweeps = 0, newton_steps = 0;
   while (least > options.tolerance && sweeps < options.sweeps) {
     const VecX start = r;
-    bool fled = false;
-    for (const int until = std::min(sweeps + round, options.sweeps); sweeps < until && !fled;
+    bool ran_away = false;
+    for (const int until = std::min(sweeps + round, options.sweeps); sweeps < until && !ran_away;
          ++sweeps) {
-      sweep(problem, rho, r);
-      fled = diverged(r);
+      gauss_seidel_sweep(problem, rho, r);
+      ran_away = diverged(r);
     }
-    if (judge() <= options.tolerance) break;
+    if (update_best() <= options.tolerance) break;
     double last = least;
     VecX before_newton = r;
     for (int s = 0; s < 12 && newton_steps < options.newton_steps; ++s) {
       ++newton_steps;
       if (!newton_step(problem, rho, r)) break;
-      last = judge();
+      last = update_best();
       if (last <= options.tolerance) break;
     }
     if (least <= options.tolerance || least < 1e-12) break;  // the rest is rounding
     if (!(last < 1e-3)) r = before_newton;
-    if (fled && r == start) break;  // all of this would come again
+    if (ran_away && r == start) break;  // the next round would repeat this one
     round = std::min(2 * round, options.sweeps);
   }
   report.sweeps += sweeps;
@@ -193,11 +195,11 @@ void alternate(const LocalProblem& problem, const VecX& rho, VecX& r, const Loca
   r = best;
 }
 
-// Where W is singular in the directions that stick, Newton's matrix is too, and wanders. Proximal
-// points cure that: the answer of  W + e, q - e r  from the last r, again and again, is one of W
-// and q when r no longer moves.
-void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const LocalOptions& options,
-              LocalReport& report) {
+// The proximal point method. If W is singular in the directions that stick, so is Newton's matrix.
+// The problem with  W + e,  q - e r_last  is regular; its solution becomes the next r_last. When r
+// no longer changes, it solves the problem with W and q.
+void proximal_point(const LocalProblem& problem, const VecX& rho, VecX& r,
+                    const LocalOptions& options, LocalReport& report) {
   const double largest = problem.W.diagonal().maxCoeff();
   LocalOptions each = options;
   each.sweeps = 400;
@@ -208,7 +210,7 @@ void approach(const LocalProblem& problem, const VecX& rho, VecX& r, const Local
     LocalProblem near = problem;
     near.W.diagonal().array() += e;
     near.q -= e * r;
-    alternate(near, step_lengths(near), r, each, report);
+    gauss_seidel_newton(near, step_lengths(near), r, each, report);
     const double residual = residual_of(problem, rho, r, nullptr);
     if (residual < least) {
       least = residual;
@@ -225,14 +227,15 @@ LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions
   const VecX rho = step_lengths(problem);
   if (r.size() != problem.q.size() || diverged(r)) r = VecX::Zero(problem.q.size());
   constexpr double enough = 1e-11;
-  alternate(problem, rho, r, options, report);
+  gauss_seidel_newton(problem, rho, r, options, report);
   if (residual_of(problem, rho, r, nullptr) > std::max(options.tolerance, enough))
-    approach(problem, rho, r, options, report);
+    proximal_point(problem, rho, r, options, report);
   report.residual = residual_of(problem, rho, r, nullptr);
-  VecX snapped = r;
-  snap(problem, snapped);
-  if (residual_of(problem, rho, snapped, nullptr) <= std::max(report.residual, options.tolerance))
-    r = snapped;
+  // the projection is kept unless it makes the residual worse
+  VecX projected = r;
+  project_reactions(problem, projected);
+  if (residual_of(problem, rho, projected, nullptr) <= std::max(report.residual, options.tolerance))
+    r = projected;
   report.residual = residual_of(problem, rho, r, &report.status);
   report.converged = report.residual <= std::max(options.tolerance, enough);
   return report;

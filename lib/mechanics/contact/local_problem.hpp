@@ -3,9 +3,9 @@
 //   x = W r + q,   per contact (n, t1, t2):   r in K_mu,   x_t + (x_n + mu |x_t|) n  in the dual cone, orthogonal to r
 //   W   (3k, 3k) compliance [mm/N], positive semidefinite, may be slightly unsymmetric (curved indenter)
 //   q   (3k) relative position without reaction [mm];  r (3k) reactions [N], start value in and answer out
-// Block Gauss-Seidel with the cone projection and one rho per contact; when it slows down,
-// semismooth Newton steps (Alart-Curnier form) finish, and proximal points where W is singular.
-// None is trusted: the answer is judged by the natural map.
+// Block Gauss-Seidel with the cone projection and one rho per contact; when it becomes slow,
+// semismooth Newton steps (Alart-Curnier form) follow, and the proximal point method if W is
+// singular. Whichever method found it, an answer is accepted by its residual in the natural map.
 #pragma once
 
 #include <vector>

@@ -12,11 +12,10 @@ namespace langer {
 struct Outline {
   std::vector<Vec3> points;             // [mm]
   std::vector<std::vector<int>> faces;  // counter-clockwise seen from outside
-  std::vector<std::vector<int>>
-      lines;  // drawn whatever side is seen: of a plane, which has no other side
+  std::vector<std::vector<int>> lines;  // drawn from both sides: the grid of a plane
 };
 
-// What is shown: shapes without an end are drawn as far as that.
+// The extent of the picture: unbounded shapes are drawn as far as that.
 struct Shown {
   Vec3 middle = Vec3::Zero();
   double size = 1;  // [mm]
@@ -32,9 +31,9 @@ Outline revolved(const Vec3& origin, const Vec3& axis,
 // The profile of a sphere about 0, from along = -radius.
 std::vector<std::array<double, 2>> half_circle(double radius, int parts);
 
-// What lies on the side of the plane x[axis] = at to which `side` (1 or -1) points, and the faces
-// in the plane that close it. A surface with an end, as that of a plate with a hole, encloses
-// nothing: there the plane leaves a line.
+// The part of a surface on one side of the plane x[axis] = at (side 1: above, -1: below), and the
+// faces in the plane that close it. A surface with an edge, as that of a plate with a hole,
+// encloses no volume: there the plane leaves a line.
 struct OpenedOutline {
   Outline kept, cap;
 };

@@ -49,8 +49,8 @@ Outline Cylinder::outline(const Shown& shown) const {
 
 namespace {
 
-// nearest point c_i = h_i^2 q_i / (t + h_i^2) with t the largest root of sum (h_i q_i / (t +
-// h_i^2))^2 = 1
+// The nearest point of an ellipsoid: c_i = h_i^2 q_i / (t + h_i^2), with t the largest root of
+//   sum (h_i q_i / (t + h_i^2))^2 = 1
 Vec3 nearest(Vec3 q, const Vec3& h) {
   const double tiny = 1e-12 * h.minCoeff();
   for (double& v : q) {
@@ -74,7 +74,10 @@ Vec3 nearest(Vec3 q, const Vec3& h) {
     const Vec3 from = hh + Vec3::Constant(t);
     const Vec3 part = hq.cwiseQuotient(from).cwiseAbs2();
     const double value = part.sum() - 1;
-    (value > 0 ? low : high) = t;
+    if (value > 0)
+      low = t;
+    else
+      high = t;
     double next = t + 0.5 * value / part.cwiseQuotient(from).sum();
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == t || high - low <= 1e-16 * hh.maxCoeff()) break;

@@ -1,6 +1,6 @@
-// The contact problem of a body that is not held, or not stable, without its contacts.
-// Springs E on the candidates make the body's tangent positive definite; they are taken out again
-// exactly:
+// The contact problem of a body that is restrained by its contacts only, or unstable without them.
+// Springs E on the candidates make the tangent of the body positive definite; their effect is then
+// removed exactly:
 //   x = q + W s        position of each contact (n, t1, t2) when the supported body carries the forces s
 //   r = b + A s        true reaction: what is left of s after the springs' share,  A = 1 - E W
 //   r in K_mu,  x_t + (x_n + mu |x_t|) n  in the dual cone, orthogonal to r

@@ -18,8 +18,8 @@ namespace langer {
 
 namespace {
 
-// nodes in z = 0 of a facet between z = 0 and the plane behind: the ends in the order of the facet,
-// and the middle
+// Of a section: the nodes in z = 0 of a facet that joins z = 0 and the plane behind it. The ends
+// come in the order of the facet, then the middle.
 std::vector<int> front_edge(const ReferenceCell& cell, const std::vector<int>& facet, int n_front) {
   std::vector<int> edge;
   const int sides = cell.facet_corners;
@@ -38,13 +38,15 @@ std::vector<std::array<int, 4>> edge_pieces(const std::vector<int>& n) {
   return {{n[0], n[2], n[2], n[0]}, {n[2], n[1], n[1], n[2]}};
 }
 
+// The smallest radius of curvature of the surface itself below a point.
 double radius_of(const ShapePoint& p) {
   const double curvature = p.curvature.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
   if (curvature > 0) return std::max(0.0, 1 / curvature - p.gap);
   return std::numeric_limits<double>::infinity();
 }
 
-double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, signed
+// The signed solid angle of a triangle seen from the origin (van Oosterom, Strackee 1983).
+double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
   const double la = a.norm();
   const double lb = b.norm();
   const double lc = c.norm();
@@ -55,29 +57,25 @@ double solid_angle(Vec3 a, Vec3 b, Vec3 c) {  // of a triangle seen from 0, sign
 }  // namespace
 
 SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size(), 0) {
-  int front = 0;
-  if (mesh.section) {
-    front = n_front(mesh);
-  } else {
-    front = mesh.n_nodes();
-  }
+  int front = mesh.n_nodes();
+  if (mesh.section) front = n_front(mesh);
   std::set<int> nodes;
   for (const Facet& facet : boundary(mesh)) {
     Patch patch{facet_nodes(mesh, facet)};
     if (mesh.section) {
       const bool flat =
           std::all_of(patch.nodes.begin(), patch.nodes.end(), [&](int n) { return n < front; });
-      if (flat) {
-        patch.nodes = std::vector<int>{};
-      } else {
-        patch.nodes = front_edge(mesh.cell(), patch.nodes, front);
-      }
+      if (flat) continue;
+      patch.nodes = front_edge(mesh.cell(), patch.nodes, front);
       if (patch.nodes.empty()) continue;
       patch.axis = mesh.section->of == SectionOf::axisymmetric &&
                    std::all_of(patch.nodes.begin(), patch.nodes.end(),
                                [&](int n) { return mesh.X[n][0] == 0; });
     }
-    quads_.push_back(mesh.section ? edge_pieces(patch.nodes) : facet_quads(mesh, facet));
+    if (mesh.section)
+      quads_.push_back(edge_pieces(patch.nodes));
+    else
+      quads_.push_back(facet_quads(mesh, facet));
     if (!patch.axis) nodes.insert(patch.nodes.begin(), patch.nodes.end());
     patches_.push_back(std::move(patch));
     const double a = half_diagonal(patches_.back());
@@ -108,19 +106,21 @@ VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
     const auto corner = [&](int k) {
       return cell.node[local[k]];
     };
-    const Vec3 xi =
-        cell.facet_corners == 3
-            ? Vec3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
-            : Vec3(0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
-                           (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3)));
+    Vec3 xi;
+    if (cell.facet_corners == 3)
+      xi = (1 - s - t) * corner(0) + s * corner(1) + t * corner(2);
+    else
+      xi = 0.25 * ((1 - s) * (1 - t) * corner(0) + (1 + s) * (1 - t) * corner(1) +
+                   (1 + s) * (1 + t) * corner(2) + (1 - s) * (1 + t) * corner(3));
     const VecX N = cell.shape(xi);
     for (std::size_t k = 0; k < n; ++k) w[k] = N[local[k]];
   }
   return w;
 }
 
-// Least gap of a facet: pieces of it that may hold something less than what is known, halved until
-// the indenter is smooth across one.
+// The smallest gap of a facet, by branch and bound. The gap is a distance, so within a piece of
+// radius r it is at least that of the middle minus r. Pieces that may contain a smaller gap are
+// halved until the indenter is smooth across them; a pattern search then refines the best point.
 SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidContact& contact,
                                             const std::vector<Vec3>& x, const Vec3& c) const {
   const bool line = mesh_.section.has_value();
@@ -140,18 +140,14 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
   };
   const auto allowed = [&](double& s, double& t) {
     s = std::clamp(s, low, 1.0);
-    if (line) {
-      t = 0;
-    } else {
-      t = std::clamp(t, low, 1.0);
-    }
+    t = line ? 0 : std::clamp(t, low, 1.0);
     if (triangle && s + t > 1) {
       const double over = 0.5 * (s + t - 1);
       s = std::clamp(s - over, 0.0, 1.0);
       t = 1 - s;
     }
   };
-  const auto take = [&](double s, double t) {
+  const auto visit = [&](double s, double t) {
     allowed(s, t);
     const ShapePoint p = at(s, t);
     if (p.gap < best) {
@@ -163,8 +159,10 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
   };
   const std::function<void(double, double, double, int)> piece = [&](double s, double t,
                                                                      double half, int level) {
-    const ShapePoint p = take(s, t);
-    const double reach = (triangle ? 2.0 : 1.0) * half * size;  // a generous radius of the piece
+    const ShapePoint p = visit(s, t);
+    // an upper bound of the radius of the piece
+    double reach = half * size;
+    if (triangle) reach *= 2;
     if (p.gap - reach > best) return;
     const double smooth = std::max(0.0, p.gap) + std::min(radius_of(p), width);
     if (level >= 6 || (level >= 2 && reach < 0.5 * smooth)) return;
@@ -173,22 +171,21 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
         if (!line || dt < 0) {
           const double a = s + ds * half;
           double b = 0;
-          if (line) {
-            b = 0;
-          } else {
-            b = t + dt * half;
-          }
+          if (!line) b = t + dt * half;
           if (!triangle || a + b < 1 + half) piece(a, b, 0.5 * half, level + 1);
         }
   };
   for (double s : {low, 1.0})
-    for (double t : {low, 1.0}) take(s, t);
-  triangle ? piece(0.5, 0.5, 0.5, 0) : piece(0, 0, 1, 0);
+    for (double t : {low, 1.0}) visit(s, t);
+  if (triangle)
+    piece(0.5, 0.5, 0.5, 0);
+  else
+    piece(0, 0, 1, 0);
   for (double step = triangle ? 0.06 : 0.12; step > 1e-3;) {
     const double s = best_s;
     const double t = best_t;
     for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j) take(s + i * step, t + j * step);
+      for (int j = -1; j <= 1; ++j) visit(s + i * step, t + j * step);
     if (best_s == s && best_t == t) step *= 0.5;
   }
   const VecX w = weights(patch, best_s, best_t);
@@ -220,13 +217,15 @@ std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves
     depth = std::max(depth, -gap);
   }
   std::vector<int> nodes;
-  for (std::size_t i = 0; i < nodes_.size();
-       ++i)  // odd factors: no node of a regular mesh lies on the limit
+  // the factors are not round, so that no node of a regular mesh is exactly on the limit
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (least[i] <= 0.2517 * depth + 2.0013 * spacing_[nodes_[i]] + 0.5 * step + moves)
       nodes.push_back(nodes_[i]);
   return nodes;
 }
 
+// The boundary of a body fills the whole solid angle around a point inside, and a total of zero
+// around a point outside; of a section, the same in the plane.
 bool SurfaceCheck::inside_body(const Vec3& p, const std::vector<Vec3>& x) const {
   double angle = 0;
   for (const auto& quads : quads_)
@@ -240,11 +239,12 @@ bool SurfaceCheck::inside_body(const Vec3& p, const std::vector<Vec3>& x) const 
       else
         angle += solid_angle(a, b, d) + solid_angle(a, d, e);
     }
-  return std::abs(angle) > (mesh_.section ? std::numbers::pi : 2 * std::numbers::pi);
+  const double half_of_all = mesh_.section ? std::numbers::pi : 2 * std::numbers::pi;
+  return std::abs(angle) > half_of_all;
 }
 
 double SurfaceCheck::pressed_along(Vec3 along, const std::vector<Vec3>& u) const {
-  if (mesh_.section) {  // what a symmetric field of forces cannot add up to
+  if (mesh_.section) {  // components that vanish by the symmetry of the section
     along[2] = 0;
     if (mesh_.section->of == SectionOf::axisymmetric) along[0] = 0;
   }

@@ -1,8 +1,9 @@
-// A rigid indenter against the whole boundary of the body, between its nodes too.
-// The contact law keeps candidate nodes out of the shape. A facet between nodes that touch is a
-// chord of the indenter and lies inside it by about a^2 / (2 R), a half the diagonal between the
-// nodes, R the radius of curvature: what these cells resolve. More than that, and every node inside
-// that is no candidate, is an indenter that the body does not feel.
+// Checks a rigid indenter against the whole boundary of the body, also between its nodes.
+// The contact law keeps the candidate nodes outside the shape. A facet between nodes that touch is
+// a chord of the indenter and enters it by about a^2 / (2 R), with a half the diagonal between the
+// nodes and R the radius of curvature: this is the resolution of the mesh. A deeper penetration, or
+// a node inside that is no candidate, means that the indenter meets the body where no contact is
+// computed.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@
 
 namespace langer {
 
-// What one look finds. Depths are distances from the indenter's surface [mm], places are reference
-// positions.
+// The result of one check. Depths are distances from the indenter's surface [mm], places are
+// reference positions.
 struct SurfaceLook {
   struct Spot {
     double depth = 0;

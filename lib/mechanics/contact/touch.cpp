@@ -6,8 +6,8 @@
 
 namespace langer {
 
-// The gap is a distance: a movement by it meets nothing, so that steps of it come to the touch, or
-// go by for ever.
+// Sphere tracing: the gap is a distance, so a step of that length cannot cross the surface.
+// Repeated steps converge to the first touch, or pass the body by.
 std::optional<double> travel_to_touch(const RigidContact& contact, double t, double from,
                                       const std::function<Vec3(int node)>& position) {
   const auto gap = [&](double travel) {
@@ -28,9 +28,9 @@ std::optional<double> travel_to_touch(const RigidContact& contact, double t, dou
   return std::nullopt;
 }
 
-double change_of_touch(const RigidContact& contact, double t, double travel,
-                       const std::function<Vec3(int node)>& position,
-                       const std::function<Vec3(int node)>& moved) {
+double touch_travel_change(const RigidContact& contact, double t, double travel,
+                           const std::function<Vec3(int node)>& position,
+                           const std::function<Vec3(int node)>& moved) {
   const Vec3 c = indenter_displacement(contact, t, travel);
   double least = std::numeric_limits<double>::infinity();
   double change = 0;
@@ -44,25 +44,22 @@ double change_of_touch(const RigidContact& contact, double t, double travel,
   return change;
 }
 
-Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance) {
+Vec3 slip_origin(const RigidContact& contact, const ExpectedMove& a, double tolerance) {
   const double gap = shape_at(contact.shape, a.X + a.u0 - a.c0).gap;
   double touches = 0;  // at this share of the increment
   Vec3 start = a.u0;
   if (gap > tolerance) {
     const double closed = gap - shape_at(contact.shape, a.X + a.u - a.c).gap;
-    if (closed > gap) {
-      touches = gap / closed;
-    } else {
-      touches = 1;
-    }
+    touches = 1;
+    if (closed > gap) touches = gap / closed;
     start = a.u0 + touches * (a.u - a.u0 - (a.c - a.c0));
   }
   if (contact.rotation) start += carried(contact, (1 - touches) * a.angle, a.X + start, a.c0);
   return start;
 }
 
-Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d,
-                          double tolerance) {
+Vec3 slip_origin_change(const RigidContact& contact, const ExpectedMove& a, const ExpectedMove& d,
+                        double tolerance) {
   const ShapePoint from = shape_at(contact.shape, a.X + a.u0 - a.c0);
   double touches = 0, d_touches = 0;
   Vec3 start = a.u0;
@@ -84,31 +81,32 @@ Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const 
   }
   if (!contact.rotation) return d_start;
   // (R - 1) q and the derivative of R q with respect to the angle, along x R q
-  const Vec3 &along = contact.rotation->axis.along,
-             q = a.X + start - a.c0 - contact.rotation->axis.point;
+  const Vec3& along = contact.rotation->axis.along;
+  const Vec3 q = a.X + start - a.c0 - contact.rotation->axis.point;
   const double angle = (1 - touches) * a.angle;
   const Vec3 turned = q + turned_by(along, angle, q);
   return d_start + turned_by(along, angle, d_start - d.c0) -
          d_touches * a.angle * cross(along, turned);
 }
 
-Approach IncrementMove::of(const RigidContact& contact, int node) const {
+ExpectedMove IncrementMove::of(const RigidContact& contact, int node) const {
+  double angle = 0;
+  if (contact.rotation) angle = contact.rotation->angle.at(t) - contact.rotation->angle.at(t0);
   return {X[static_cast<std::size_t>(node)],
           u0.segment<3>(3 * node),
           expected.segment<3>(3 * node),
           indenter_displacement(contact, t0, travel0),
           indenter_displacement(contact, t, travel),
-          contact.rotation ? contact.rotation->angle.at(t) - contact.rotation->angle.at(t0) : 0};
+          angle};
 }
 
-std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact,
-                                              const IncrementMove& move, double tolerance) {
+std::vector<Vec3> slip_origin_change_with_travel(const RigidContact& contact,
+                                                 const IncrementMove& move, double tolerance) {
   const Vec3 none = Vec3::Zero();
   std::vector<Vec3> out;
   for (int node : contact.nodes)
-    out.push_back(change_of_slips_from(contact, move.of(contact, node),
-                                       {none, none, none, none, contact.control->along},
-                                       tolerance));
+    out.push_back(slip_origin_change(contact, move.of(contact, node),
+                                     {none, none, none, none, contact.control->along}, tolerance));
   return out;
 }
 

@@ -1,5 +1,6 @@
-// How far an indenter that is pushed along a direction goes until it touches, and from where a node
-// slips that it touches.
+// The first touch of an increment: how far a force-controlled indenter travels until it touches the
+// body, and the position from which the slip of a node is measured that touches within the
+// increment.
 #pragma once
 
 #include <functional>
@@ -10,41 +11,42 @@
 
 namespace langer {
 
-// Travel at which the nearest candidate is touched, t and `from` to begin with [mm]; nothing where
-// it passes all of them by. position: of a node [mm]. Under force control.
+// The travel at which a force-controlled indenter touches the first candidate, starting from the
+// travel `from` at t [mm]; nothing if it passes all of them. position: of a node [mm].
 std::optional<double> travel_to_touch(const RigidContact& contact, double t, double from,
                                       const std::function<Vec3(int node)>& position);
-// Derivative of that travel where the nodes there move by `moved` and the indenter, across its
-// direction, stands still.
-double change_of_touch(const RigidContact& contact, double t, double travel,
-                       const std::function<Vec3(int node)>& position,
-                       const std::function<Vec3(int node)>& moved);
+// The derivative of that travel if the nodes move by `moved` and the indenter does not move across
+// its direction.
+double touch_travel_change(const RigidContact& contact, double t, double travel,
+                           const std::function<Vec3(int node)>& position,
+                           const std::function<Vec3(int node)>& moved);
 
-// A candidate at X from the start of an increment (displacement u0 of the node, c0 of the indenter)
-// to where the last movement goes on to (u, c), while the indenter turns by `angle`. A node that is
-// open at the start slips only from where it touches: at the share of that movement that its gap
-// takes to close. Without this its reaction is that of a slip it never made, an error of first
-// order in the increment. What touches an indenter that turns is carried along from there.
-struct Approach {
+// A candidate at X: its displacement u0 and that of the indenter, c0, at the start of an increment;
+// the displacements u and c to which the motion of the last increment would lead; the rotation of
+// the indenter. A node that is open at the start can slip only after it touches, at the share of
+// this motion at which its gap closes. Slip measured from the start would be too long by an error
+// of first order in the increment. From its touch on, the node is carried along by a rotating
+// indenter.
+struct ExpectedMove {
   Vec3 X, u0, u, c0, c;
   double angle = 0;
 };
-// displacement from which its slip is measured; u0 where the node touches (within `tolerance`) an
-// indenter that does not turn
-Vec3 slips_from(const RigidContact& contact, const Approach& a, double tolerance);
-// derivative where u0, u, c0, c change by those of `d`
-Vec3 change_of_slips_from(const RigidContact& contact, const Approach& a, const Approach& d,
-                          double tolerance);
+// The displacement from which the slip is measured: u0 if the node touches at the start (within
+// `tolerance`) and the indenter does not turn.
+Vec3 slip_origin(const RigidContact& contact, const ExpectedMove& a, double tolerance);
+// Its derivative if u0, u, c0 and c change by those of `d`.
+Vec3 slip_origin_change(const RigidContact& contact, const ExpectedMove& a, const ExpectedMove& d,
+                        double tolerance);
 
-// An increment as the start of slip sees it; refers to its arguments.
+// The motion in an increment, for all candidates; refers to its arguments.
 struct IncrementMove {
   const std::vector<Vec3>& X;
   const VecX &u0, &expected;  // (3 n): where it began, where the last movement goes on to
   double t0 = 0, travel0 = 0, t = 0, travel = 0;  // of the indenter, under force control
-  Approach of(const RigidContact& contact, int node) const;
+  ExpectedMove of(const RigidContact& contact, int node) const;
 };
-// by candidate: derivative of slips_from with respect to the travel of a pushed indenter
-std::vector<Vec3> change_of_slips_with_travel(const RigidContact& contact,
-                                              const IncrementMove& move, double tolerance);
+// by candidate: derivative of slip_origin with respect to the travel of a pushed indenter
+std::vector<Vec3> slip_origin_change_with_travel(const RigidContact& contact,
+                                                 const IncrementMove& move, double tolerance);
 
 }  // namespace langer

@@ -6,21 +6,21 @@
 namespace langer {
 
 namespace {
-class ByProducts;
+class ProductMatrix;
 }
 
 }  // namespace langer
 
-// what Eigen asks of a matrix that is none
+// Eigen needs these traits of a class that acts as a matrix without storing one.
 template <>
-struct Eigen::internal::traits<langer::ByProducts>
+struct Eigen::internal::traits<langer::ProductMatrix>
     : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
 
 namespace langer {
 
 namespace {
 
-class ByProducts : public Eigen::EigenBase<ByProducts> {
+class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
  public:
   using Scalar = double;
   using RealScalar = double;
@@ -31,12 +31,12 @@ class ByProducts : public Eigen::EigenBase<ByProducts> {
     IsRowMajor = false
   };
 
-  ByProducts(const LinearMap& map, Eigen::Index n) : map_(&map), n_(n) {}
+  ProductMatrix(const LinearMap& map, Eigen::Index n) : map_(&map), n_(n) {}
   Eigen::Index rows() const { return n_; }
   Eigen::Index cols() const { return n_; }
   VecX times(const VecX& x) const { return (*map_)(x); }
   template <typename Right>
-  Eigen::Product<ByProducts, Right, Eigen::AliasFreeProduct> operator*(
+  Eigen::Product<ProductMatrix, Right, Eigen::AliasFreeProduct> operator*(
       const Eigen::MatrixBase<Right>& x) const {
     return {*this, x.derived()};
   }
@@ -51,13 +51,14 @@ class ByProducts : public Eigen::EigenBase<ByProducts> {
 }  // namespace langer
 
 template <typename Right>
-struct Eigen::internal::generic_product_impl<langer::ByProducts, Right, Eigen::SparseShape,
+struct Eigen::internal::generic_product_impl<langer::ProductMatrix, Right, Eigen::SparseShape,
                                              Eigen::DenseShape, Eigen::GemvProduct>
     : Eigen::internal::generic_product_impl_base<
-          langer::ByProducts, Right,
-          Eigen::internal::generic_product_impl<langer::ByProducts, Right>> {
+          langer::ProductMatrix, Right,
+          Eigen::internal::generic_product_impl<langer::ProductMatrix, Right>> {
   template <typename Out>
-  static void scaleAndAddTo(Out& out, const langer::ByProducts& A, const Right& x, double factor) {
+  static void scaleAndAddTo(Out& out, const langer::ProductMatrix& A, const Right& x,
+                            double factor) {
     out += factor * A.times(x);
   }
 };
@@ -65,8 +66,8 @@ struct Eigen::internal::generic_product_impl<langer::ByProducts, Right, Eigen::S
 namespace langer {
 
 VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most) {
-  const ByProducts matrix(A, b.size());
-  Eigen::GMRES<ByProducts, Eigen::IdentityPreconditioner> gmres;
+  const ProductMatrix matrix(A, b.size());
+  Eigen::GMRES<ProductMatrix, Eigen::IdentityPreconditioner> gmres;
   gmres.setTolerance(tolerance).setMaxIterations(most).set_restart(most);
   gmres.compute(matrix);
   return gmres.solveWithGuess(b, b);

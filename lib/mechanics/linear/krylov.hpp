@@ -1,4 +1,4 @@
-// Linear systems whose matrix is known by its products alone.
+// Linear systems whose matrix is given by its products with vectors only.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@ namespace langer {
 
 using LinearMap = std::function<VecX(const VecX&)>;
 
-// x of A x = b by GMRES from b itself: for an A near the identity. Ends where |b - A x| <=
-// tolerance |b|, or after `most` products.
+// Solves A x = b by GMRES, for an A close to the identity: it starts from x = b. Ends if |b - A x|
+// <= tolerance |b|, or after `most` products.
 VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most);
 
 }  // namespace langer

@@ -28,6 +28,7 @@ LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int th
 
 LinearSolver::~LinearSolver() = default;
 
+// METIS orders the rows for small fill; order_last() then moves the rows of `last` to the end.
 void LinearSolver::State::analyse() {
   const NoNestedThreads guard;
   common.nmethods = 1;
@@ -53,8 +54,8 @@ void LinearSolver::State::order_last() {
   common.method[0].ordering = CHOLMOD_GIVEN;
   L = cholmod_analyze_p(A, order.data(), nullptr, 0, &common);
   if (!L) return;
-  // postordering may only have permuted them among themselves; where the body falls apart it may
-  // have done more
+  // CHOLMOD's postordering may permute the last rows among themselves. If the matrix is that of
+  // several unconnected bodies, it may also move them from the end.
   const int* permutation = static_cast<int*>(L->Perm);
   trailing = true;
   trailing_order.resize(m);
@@ -99,6 +100,8 @@ VecX LinearSolver::solve(const VecX& b) const {
   return x + s.spring_moves * s.spring_share.solve(at);
 }
 
+// With K = L L^T and the rows of `last` at the end of L, the first half ends with L^-1 P b. Its
+// tail gives x on the rows of `last` by the small trailing factor alone.
 LinearSolver::Half LinearSolver::start(const VecX& b) const {
   const State& s = *state_;
   const Eigen::Index n = b.size();
@@ -144,7 +147,7 @@ VecX LinearSolver::State::whole(const VecX& b) const { return through(CHOLMOD_A,
 
 VecX LinearSolver::State::through(int system, const VecX& b) const {
   VecX x(b.size());
-  if (b.size() == 0) return x;  // all nodes are moved as told; CHOLMOD wants an address
+  if (b.size() == 0) return x;  // all nodes are prescribed; CHOLMOD needs an address
   cholmod_dense rhs{};
   rhs.nrow = rhs.d = rhs.nzmax = b.size();
   rhs.ncol = 1;
@@ -178,6 +181,9 @@ const MatX& LinearSolver::State::trailing_factor() const {
   return block;
 }
 
+// The trailing block L_22 of the factor satisfies  S = L_22 L_22^T  for the Schur complement S of
+// the rows of `last`, so that  B^T K^-1 B = Y^T Y  with Y = L_22^-1 B. Springs are removed by
+// Woodbury's formula. Without such a block, each column costs a solve.
 MatX LinearSolver::compliance(const MatX& B) const {
   const State& s = *state_;
   if (s.trailing && !s.indefinite) {
@@ -227,8 +233,8 @@ LinearSolver::Size LinearSolver::size() const {
   const State& s = *state_;
   const double nonzeros = static_cast<double>(s.A->nzmax);
   const double block = static_cast<double>(s.last.size());
-  // supernodes with their workspace; K permuted, twice; the candidates' trailing block and their
-  // compliance
+  // supernodes and their workspace; two permuted copies of K; the trailing block of the candidates
+  // and their compliance
   const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros +
                        3 * 8.0 * block * block;
   return {nonzeros, s.common.lnz, bytes, s.common.fl};

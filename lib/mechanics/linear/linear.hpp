@@ -20,19 +20,18 @@ class LinearSolver {
   LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
   ~LinearSolver();
 
-  // By CHOLMOD; false where K is not positive definite. solve() then must wait for another
-  // factorization.
+  // By CHOLMOD; false if K is not positive definite. solve() then needs another factorization.
   bool factorize(const std::vector<double>& values);
   // By UMFPACK, whatever the signs; false where K is singular.
   bool factorize_indefinite(const std::vector<double>& values);
-  // By CHOLMOD with springs: springs on a few rows, found where Cholesky stops, at least one for
-  // each negative eigenvalue. They are taken out again exactly in solve() and compliance()
-  // (Woodbury). False where `most` of them are not enough.
+  // By CHOLMOD with springs added to a few rows, those at which Cholesky stops: at least one for
+  // each negative eigenvalue. solve() and compliance() remove their effect exactly (Woodbury).
+  // False if `most` of them are not enough.
   bool factorize_with_springs(const std::vector<double>& values, int most = 40);
   VecX solve(const VecX& b) const;
 
-  // The same in two halves, for a b whose part on the rows of `last` is known only after x has been
-  // seen there:
+  // The same in two halves, for a b whose part on the rows of `last` (the contacts) depends on x
+  // there:
   //   half = start(b);   half.last is x on those rows, in their order;   finish(half, c) = K^-1 (b + c), c on the rows of `last`
   struct Half {
     VecX last;
@@ -44,8 +43,8 @@ class LinearSolver {
   // B^T K^-1 B, for B with rows of `last` only: B is (last.size(), m), rows in the order of `last`
   MatX compliance(const MatX& B) const;
 
-  // Schur complement of the rows of `last`, in their order; nothing where the last factor does not
-  // hold it
+  // The Schur complement of the rows of `last`, in their order; nothing if the present factor does
+  // not contain it
   std::optional<MatX> schur() const;
   // Negative pivots of a simplicial L D L^T: as many as there are negative eigenvalues. -1 where a
   // pivot is zero. Slower than a factor; the factor that solve() uses stays.
@@ -54,8 +53,8 @@ class LinearSolver {
   struct Size {
     double nonzeros = 0;         // of K, one triangle
     double factor_nonzeros = 0;  // of its Cholesky factor
-    double factor_bytes = 0;  // what factorizing will take, beside what the analysis holds already
-    double flops = 0;         // of one factorization
+    double factor_bytes = 0;     // memory of a factorization, in addition to that of the analysis
+    double flops = 0;            // of one factorization
   };
   Size size() const;  // known from the analysis
 

@@ -6,7 +6,7 @@
 namespace langer {
 
 // iterative: displacements and pressures together, by multigrid and GMRES (linear/mixed.hpp);
-// automatic: so where the body is large and PETSc is at hand
+// automatic: iterative if the body is large and PETSc is available, else direct
 enum class LinearBy { automatic, direct, iterative };
 constexpr auto names(LinearBy) { return std::array{"auto", "direct", "iterative"}; }
 

@@ -15,10 +15,10 @@
 
 namespace langer {
 
-// CHOLMOD opens its own parallel regions whatever OMP_NUM_THREADS says, and they starve the BLAS
-// beneath them: 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two cores. Held back
-// for the length of a call, but for several threads of an OpenBLAS that is itself made with OpenMP:
-// it would wait for ever for those that it does not get.
+// CHOLMOD opens parallel regions of its own, whatever OMP_NUM_THREADS is, and they take the cores
+// from the BLAS that it calls: 0.68 s instead of 0.19 s for a factor of 38 000 unknowns on two
+// cores. This guard prevents them during a call. Not so with an OpenBLAS that is built with OpenMP
+// and uses several threads: it would wait for threads that it never gets.
 class NoNestedThreads {
  public:
   NoNestedThreads() : levels_(omp_get_max_active_levels()) {
@@ -30,8 +30,8 @@ class NoNestedThreads {
   int levels_;
 };
 
-// METIS draws from the C library's one rand(), which it seeds anew for each ordering. Two threads
-// that order at once draw from one another's numbers, and find another ordering in every run.
+// METIS uses the C library's only rand(), which it seeds for each ordering. Two orderings at the
+// same time would mix their random numbers and differ from run to run.
 inline std::lock_guard<std::mutex> one_ordering_at_a_time() {
   static std::mutex mutex;
   return std::lock_guard(mutex);

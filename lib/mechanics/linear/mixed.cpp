@@ -9,8 +9,9 @@ namespace langer {
 
 namespace {
 
-// three times the number of its node, plus its axis: of each row
-std::vector<int> by_nodes(const std::vector<int>& dof_of_row) {
+// For each row three times the number of its node among the free nodes, plus its axis: multigrid
+// needs blocks of three rows, also for nodes that are held in some direction.
+std::vector<int> block_rows(const std::vector<int>& dof_of_row) {
   std::vector<int> out;
   int nodes = 0, last = -1;
   for (int dof : dof_of_row) {
@@ -28,7 +29,8 @@ int rows_of_nodes(const std::vector<int>& block_row) {
   return block_row.back() / 3 * 3 + 3;
 }
 
-std::vector<int> in_nodes(std::vector<int> rows, const std::vector<int>& block_row) {
+// The rows of cells, renumbered to block rows.
+std::vector<int> renumbered(std::vector<int> rows, const std::vector<int>& block_row) {
   for (int& row : rows)
     if (row >= 0) row = block_row[row];
   return rows;
@@ -43,8 +45,8 @@ MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_
       module_(module),
       ranks_(division ? division->ranks : nullptr),
       cell_rows_(std::move(cell_rows)),
-      block_row_(by_nodes(dof_of_row)),
-      schur_(in_nodes(cell_rows_, block_row_), rows_of_nodes(block_row_), division, threads),
+      block_row_(block_rows(dof_of_row)),
+      schur_(renumbered(cell_rows_, block_row_), rows_of_nodes(block_row_), division, threads),
       cycle_(module.multigrid(ranks_)) {
   const auto rows = static_cast<std::size_t>(rows_of_nodes(block_row_));
   start_.assign(rows + 1, 0);
@@ -101,6 +103,7 @@ VecX MixedSolver::diagonal_of(const std::vector<double>& A) const {
   return diagonal;
 }
 
+// A as full rows, from its lower triangle by columns.
 void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
   const std::size_t rows = start_.size() - 1;
   if (column_.empty()) {
@@ -112,8 +115,8 @@ void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
     column_[to[row]] = column;
     value_[to[row]++] = value;
   };
-  for (int column = 0; column < pattern_.n;
-       ++column)  // what stands before the diagonal of later rows first
+  // entries left of the diagonal first, so that the columns of each row ascend
+  for (int column = 0; column < pattern_.n; ++column)
     for (int at = pattern_.column_start[column] + 1; at < pattern_.column_start[column + 1]; ++at)
       put(block_row_[pattern_.row[at]], block_row_[column], A[at]);
   double sum = 0;
@@ -123,13 +126,10 @@ void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
       put(block_row_[column], block_row_[pattern_.row[at]], A[at]);
   }
   inverse_diagonal_.assign(rows, 0);
+  // Held directions of nodes that are free in others get a diagonal entry, added by one rank.
   double held = 0;
-  if (ranks_ && !ranks_->first()) {
-    held = 0;
-  } else {
-    held = sum / pattern_.n;
-  }
-  for (std::size_t row = 0; row < rows; ++row)  // held directions of nodes that are free in others
+  if (!ranks_ || ranks_->first()) held = sum / pattern_.n;
+  for (std::size_t row = 0; row < rows; ++row)
     if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), held);
   for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / diagonal[row];
 }
@@ -148,6 +148,7 @@ VecX MixedSolver::times(const VecX& x) const {
   return y;
 }
 
+// Fixed rows have no part in the Schur complement.
 bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vector<char>& fixed) {
   std::vector<double> scaled(b);  // B M^-1/2
   for (std::size_t k = 0; k < scaled.size(); ++k) {
@@ -192,6 +193,8 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
   return preconditioned_;
 }
 
+// The preconditioner: pressures by the Schur complement, then displacements by a multigrid cycle
+// with these pressures.
 VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
   const Eigen::Index rows = static_cast<Eigen::Index>(start_.size()) - 1;
   const Eigen::Index n = pattern_.n;
@@ -203,11 +206,8 @@ VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
   };
   const auto from_block = [&](const VecX& of) {
     for (Eigen::Index row = 0; row < n; ++row) {
-      if (fixed_[row]) {
-        free[row] = 0;
-      } else {
-        free[row] = of[block_row_[row]];
-      }
+      free[row] = 0;
+      if (!fixed_[row]) free[row] = of[block_row_[row]];
     }
   };
   const Eigen::Map<const VecX> M(inverse_diagonal_.data(), rows);
@@ -248,7 +248,8 @@ MixedSolver::Answer MixedSolver::solve(const Product& product, const std::vector
   system.product = [&](const double* from, double* to) {
     VecX y_f, y_g;
     product(Eigen::Map<const VecX>(from, n), Eigen::Map<const VecX>(from + n, cells), y_f, y_g);
-    Eigen::Map<VecX>(to, n) = y_f, Eigen::Map<VecX>(to + n, cells) = y_g;
+    Eigen::Map<VecX>(to, n) = y_f;
+    Eigen::Map<VecX>(to + n, cells) = y_g;
   };
   system.precondition = [&](const double* from, double* to) {
     Eigen::Map<VecX>(to, all) = apply(b, Eigen::Map<const VecX>(from, all));
@@ -268,11 +269,7 @@ double MixedSolver::bytes() const {
   // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors
   // of GMRES
   double entries = 0;
-  if (start_.empty()) {
-    entries = 0;
-  } else {
-    entries = start_.back();
-  }
+  if (!start_.empty()) entries = start_.back();
   double share = 1;
   if (ranks_) share = 1.0 / ranks_->n();
   return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes +

@@ -2,15 +2,15 @@
 // forces q of the cells together.
 //   K = A + B^T D B,   D d q = D B d  taken as unknown:    [ A   B^T  ] [d]   [f]
 //                                                          [ B  -D^-1 ] [q] = [g]
-// A   what K has beside the dyads, with a little of the volume in it: a matrix that multigrid likes
+// A   K without the dyads, but with a small bulk modulus: a matrix that suits multigrid
 // B   (cells, rows), D  (cells): a dyad of each cell
 // Flexible GMRES, preconditioned by the upper block triangle: a cycle of smoothed aggregation for
 // A, and for the Schur complement
 //   S^-1 = L^-1 (B M^-1 A M^-1 B^T + D^-1) L^-1,   M = diag A,   L = B M^-1 B^T + D^-1   by Cholesky                    after [EHSST06]
-// L knows the pressures that hexahedra with one dilatation hardly see (checkerboards), which a mass
-// matrix in its place does not: 10 iterations for a reduction by 1e-4 where that takes 100 to 200.
-// Divided among ranks, A is what each adds to it and B what each has of it by its own cells;
-// vectors are whole, and the same on all.
+// L includes the checkerboard pressures, to which hexahedra with one dilatation hardly react; a
+// mass matrix does not. It needs 10 iterations for a reduction by 1e-4, a mass matrix 100 to 200.
+// Divided among ranks, each holds the contribution of its own cells to A and B; vectors are
+// complete, and the same on all ranks.
 #pragma once
 
 #include <functional>
@@ -44,15 +44,15 @@ class MixedSolver {
                   VecX& f) const;  // the same of this rank's cells
   const Ranks* ranks() const { return ranks_; }
 
-  // What solve() goes by from now on, until the next one. A: lower triangle in the pattern's order;
-  // fixed: rows that are not coupled, neither in A nor by B; rigid: (rows, 6), rigid movements.
-  // False where PETSc cannot; `why`.
+  // Sets up the preconditioner that solve() uses until the next call. A: lower triangle in the
+  // pattern's order; fixed: rows without coupling in A or B; rigid: (rows, 6), rigid body motions.
+  // False, with the reason in `why`, if PETSc fails.
   bool precondition(const std::vector<double>& A, const std::vector<double>& b, const VecX& D,
                     const std::vector<char>& fixed, const MatX& rigid, std::string& why);
   bool preconditioned() const { return preconditioned_; }
   void forget() {
     preconditioned_ = again_ = false;
-  }  // so that nothing depends on what was solved before
+  }  // so that a solution does not depend on earlier ones
 
   struct Answer {
     VecX d, q;

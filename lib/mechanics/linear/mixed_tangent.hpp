@@ -1,8 +1,8 @@
 // The tangent of a body of 8-node hexahedra with one dilatation each, split for an iterative
 // solution (linear/mixed.hpp):
 //   K = A + B^T D B,   A with a bulk modulus of a few shear moduli in place of kappa
-// Its pressures are unknowns: what an inexact solution leaves of them is not multiplied by kappa,
-// as it would be in residuals and predictions made of J_bar alone.
+// The pressures are unknowns of their own. In an approach with J_bar alone, the error of an inexact
+// solution would be multiplied by kappa, in residuals and in predictions.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ class MixedTangent {
 
   MixedSolver& solver() { return *solver_; }
   const MixedSolver& solver() const { return *solver_; }
-  // Of f and g together, what a solution may leave: while candidates still change what they do, and
-  // at last.
+  // The relative residual of f and g together at which a solution ends: while the status of
+  // candidates still changes, and in the last iterations.
   static constexpr double rough = 1e-2, fine = 1e-4;
   static constexpr int most = 120;  // products of one solution
 

@@ -1,6 +1,6 @@
-// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky. Divided among ranks it is
-// still exact: each eliminates the cells that lie within its own, which leaves a full matrix over
-// those between ranks (substructuring), for rank 0 to factorize.
+// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky. It is exact also if divided
+// among ranks (substructuring): each rank eliminates the cells in its interior, which leaves a full
+// matrix over the cells between ranks. Rank 0 factorizes that.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class PressureSchur {
   LinearSolver::Size size() const;  // of this rank
 
  private:
-  // Some cells, and what some nodes make of them.
+  // The matrix of some cells, with the contributions of some nodes.
   struct Part {
     std::vector<int> cells;
     Pattern pattern;

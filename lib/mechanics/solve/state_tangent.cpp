@@ -53,8 +53,8 @@ void StateTangent::take_candidates() {
                      now.r,
                      pushed_ ? statics_.controlled_ : -1};
   if (pushed_ && statics_.starts_with_travel())
-    state.start_moves = change_of_slips_with_travel(*statics_.controlled(), increment_move(),
-                                                    statics_.gap_tolerance_);
+    state.start_moves = slip_origin_change_with_travel(*statics_.controlled(), increment_move(),
+                                                       statics_.gap_tolerance_);
   c_ = condensed(state, factor_, near_);
 }
 
@@ -148,9 +148,9 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
                d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
     const Vec3 d_c0 =
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
-    const Approach d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
-    const Vec3 from = change_of_slips_from(contact, increment_move().of(contact, node), d,
-                                           statics_.gap_tolerance_) -
+    const ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
+    const Vec3 from = slip_origin_change(contact, increment_move().of(contact, node), d,
+                                         statics_.gap_tolerance_) -
                       d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
@@ -317,8 +317,8 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     const auto moved = [&](int node) {
       return Vec3(out.u.segment<3>(3 * node));
     };
-    out.travel = change_of_touch(*statics_.controlled(), statics_.now_.t, statics_.now_.travel,
-                                 position, moved);
+    out.travel = touch_travel_change(*statics_.controlled(), statics_.now_.t, statics_.now_.travel,
+                                     position, moved);
   }
   return out;
 }
