@@ -135,12 +135,9 @@ std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) 
                                 "UTF-8",
                                 "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
   std::vector<CsvLine> lines;
-  char end = ' ';
-  if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos) {
-    end = '\r';
-  } else {
-    end = '\n';
-  }
+  // files of old Macintosh programs end their lines by \r alone
+  char end = '\n';
+  if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos) end = '\r';
   std::istringstream in(text);
   int number = 0;
   for (std::string line; std::getline(in, line, end);) {
@@ -187,7 +184,7 @@ struct HeaderPosition {
   char separator = ',';
 };
 
-// the names as the caller knows them, in any dialect
+// The line of names that the caller recognises, with any of the separators.
 std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
                                           const std::string& separators,
                                           const CsvReading& reading) {
@@ -208,6 +205,8 @@ std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
   return std::nullopt;
 }
 
+// Without a line that the caller recognises: the first line with the first separator that splits
+// both it and the last line, or the comment above it if it has numbers only.
 HeaderPosition first_header(const std::vector<CsvLine>& lines, const std::string& separators,
                             const std::string& name) {
   std::vector<std::size_t> plain;
@@ -243,6 +242,7 @@ void drop_empty_end(std::vector<CsvCell>& cells, std::size_t down_to) {
   while (cells.size() > down_to && cells.back().text.empty()) cells.pop_back();
 }
 
+// A line of units has at least one that is no number: "1" and "-" may also be values.
 bool is_line_of_units(const CsvRow& row) {
   bool some = false;
   for (const CsvCell& cell : row.cells) {
@@ -252,10 +252,15 @@ bool is_line_of_units(const CsvRow& row) {
   return some;
 }
 
-// Which sign parts the decimals; throws where the file does not tell.
+// The decimal sign of a file; throws if the file does not show it. A comma in 1,234 may separate
+// thousands; in 1,23 it cannot.
 DecimalSign decimal_sign(const CsvTable& table) {
-  const CsvCell *with_point = nullptr, *with_comma = nullptr, *maybe_thousands = nullptr;
-  int line_of_point = 0, line_of_comma = 0, line_of_thousands = 0;
+  const CsvCell* with_point = nullptr;
+  const CsvCell* with_comma = nullptr;
+  const CsvCell* maybe_thousands = nullptr;
+  int line_of_point = 0;
+  int line_of_comma = 0;
+  int line_of_thousands = 0;
   for (const CsvRow& row : table.rows)
     for (const CsvCell& cell : row.cells) {
       if (cell.text.find_first_of(".,") == std::string::npos) continue;

@@ -1,11 +1,13 @@
 // A CSV file as a table of texts with their places, as laboratories and spreadsheets write them.
 //   separators  tab, semicolon, comma or blanks: the one that gives the line of names; "sep=;" is obeyed; cells may be "quoted"
 //   comments    lines that start with #; blank lines, lines of separators only and separators at the ends are left out
-//   names       the first line that the caller knows as such (lines before it are the machine's preamble); else the first
-//               line, or, where that holds numbers only, the comment right above it, as numpy.savetxt writes it
-//   units       a line of nothing but units right below the names
-//   decimals    points or commas, not both in one file; commas that may as well part thousands (1,234) are asked about
-//   blocks      where the line of names is repeated, a block of rows of its own begins: one specimen after another
+//   names       the first line that the caller recognises (lines before it are the machine's preamble);
+//               else the first line; if that has numbers only, the comment right above it, as
+//               numpy.savetxt writes it
+//   units       a line of units only, right below the names
+//   decimals    points or commas, not both in one file; commas that could separate thousands (1,234)
+//               are refused unless the caller decides
+//   blocks      a repeated line of names begins a new block of rows: one specimen after another
 // Workbooks (.xlsx, .xls) are recognised by their first bytes and refused: a sheet has to be saved
 // as CSV.
 #pragma once
@@ -37,7 +39,7 @@ struct CsvTable {
   CsvRow header;
   std::vector<std::string> units;  // by column, from a line below the names; empty: there is none
   std::vector<CsvRow> rows;
-  // what stands above each of the repeated lines of names, such as "Specimen 2"; one: no blocks
+  // the line above each repeated line of names, such as "Specimen 2"; one entry: no blocks
   std::vector<std::string> blocks{""};
   DecimalSign decimal = DecimalSign::point;
   std::optional<double> number(const CsvCell& cell) const;  // the whole cell as a number

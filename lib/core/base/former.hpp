@@ -1,7 +1,7 @@
-// Former names of keys and words of configs: old files go on working, and a notice says the new
+// Former names of keys and words of configs: old files are still read, and a notice gives the new
 // name.
 //   v(&Fit::cross_check, "cross_check", unit::none, "...", Formerly{"check"});          a key
-//   constexpr auto former_names(Kind) { return std::array{FormerWord{"rung", "refinement"}}; }   a word of an enum, beside names()
+//   constexpr auto former_names(Kind) { return std::array{FormerWord{"rung", "refinement"}}; }   a word of an enum, next to names()
 #pragma once
 
 namespace langer {

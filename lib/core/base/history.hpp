@@ -1,5 +1,5 @@
-// What goes along the load path, t from 0 to 1: values at points of it, linear between them and
-// from 0 at t = 0 to the first, constant behind the last. A number in place of a list grows in
+// Values along the load path, t from 0 to 1: given at points, linear between them and from 0 at t =
+// 0 to the first point, constant after the last. A single number instead of a list grows in
 // proportion to t.
 #pragma once
 
@@ -39,26 +39,26 @@ inline double factor_at(const LoadFactor& factor, double t) {
   if (factor) return value_at(*factor, t);
   return t;
 }
-// its slope there, at a kink that of the piece before
+// The derivative of the factor; at a kink that of the interval before it.
 double factor_rate(const LoadFactor& factor, double t);
 inline bool same_factor(const LoadFactor& a, const LoadFactor& b) {
   return a == b || (a && b && *a == *b);
 }
 
-// A load as its largest value, with its sign, times a factor: what is mirrored has the same factor.
+// A load: its largest value, with a sign, times a factor. Mirror images of a load share its factor.
 struct History {
   double value = 0;
   LoadFactor factor;
   double at(double t) const { return value * factor_at(factor, t); }
   double rate(double t) const { return value * factor_rate(factor, t); }
-  bool keeps_rate(double before, double now,
-               double next) const;  // from now to next, at the mean rate that it had before
+  // whether the mean rate from `now` to `next` is that from `before` to `now`
+  bool keeps_rate(double before, double now, double next) const;
   friend bool operator==(const History& a, const History& b) {
     return a.value == b.value && same_factor(a.factor, b.factor);
   }
 };
 
-// As a config has it: a number, or a list of points. The unit is that of the key.
+// A history in a config: a number, or a list of points. The unit is that of the key.
 struct HistoryPointConfig {
   std::optional<double> t;
   double to = 0;
@@ -74,8 +74,8 @@ struct HistoryConfig {
     return points.back().to;
   }
 };
-// Where on the path, t or s over its seconds, a point of any history is: the one listing and the
-// one rule of all of them.
+// The place of a point on the path: t, or s over the seconds of the path. All kinds of histories
+// use this listing and this rule.
 template <class Point>
 double place(const Point& point, std::optional<double> seconds) {
   if (point.s) return *point.s / seconds.value();

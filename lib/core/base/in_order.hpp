@@ -1,7 +1,7 @@
-// Work side by side, results in order: `compute(worker, i)` runs on several threads, `add(worker,
+// Parallel work with results in order: `compute(worker, i)` runs on several threads, `add(worker,
 // i)` for i = 0, 1, 2, ... one after the other, so that sums do not depend on the number of
-// threads. Waiting threads sleep: OpenMP's would spin for milliseconds at every barrier, which on a
-// shared machine cost more than the assembly itself.
+// threads. Waiting threads sleep. Those of OpenMP spin for milliseconds at every barrier; on a
+// shared machine this took more time than the assembly itself.
 #pragma once
 
 #include <condition_variable>

@@ -74,7 +74,8 @@ Interruptible::Interruptible() { places_to_stop = 1; }
 Interruptible::~Interruptible() { places_to_stop = 0; }
 
 EndsSoon::EndsSoon(int after) {
-  patience = after == 0 ? any : after;
+  patience = after;
+  if (after == 0) patience = any;
   std::signal(SIGALRM, on_alarm);
   if (signal_seen != 0 && is_awaited(signal_seen)) alarm(seconds);  // it came just before
 }
@@ -92,6 +93,9 @@ void note_signal(int signal) {
 
 Exit exit_code_of(int signal) { return static_cast<Exit>(128 + signal); }
 
-const char* signal_name(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+const char* signal_name(int signal) {
+  if (signal == SIGINT) return "SIGINT";
+  return "SIGTERM";
+}
 
 }  // namespace langer

@@ -1,15 +1,15 @@
 // Signals that ask a program to end: SIGINT (Ctrl-C) and SIGTERM.
-// The first is noted, for work that comes to a good place to stop soon; the second (0.2 s later or
-// more), or the first where nothing waits for such a place, ends the program at once. Either way
-// the exit code is 128 + signal: 130, 143.
+// While an Interruptible lives, the first signal is only noted: the work stops at its next safe
+// place. A second signal (0.2 s later or more) ends the program at once, and so does the first one
+// without an Interruptible. In all cases the exit code is 128 + signal: 130 or 143.
 #pragma once
 
 #include "core/base/error.hpp"
 
 namespace langer {
 
-// Call once, first of all. Also: a closed pipe and a file beyond the size limit become errors of
-// writing, not deaths. silent: another rank speaks
+// Call once, first of all. Afterwards a closed pipe, and a file beyond the size limit, are errors
+// of writing and no longer end the program. silent: another rank writes the messages
 void listen_to_signals(bool silent = false);
 
 // While one of these lives, the first signal waits for interrupted() to be asked.
@@ -21,8 +21,8 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 };
 
-// While one of these lives as well, nothing would be lost but what was begun last: where the signal
-// is not asked for within `seconds`, since a large tangent is analysed or factorized, the program
+// While one of these lives as well, all finished steps are on the disk. If no part of the program
+// asks for the signal within `seconds`, as during the factorization of a large tangent, the program
 // ends by itself.
 class EndsSoon {
  public:

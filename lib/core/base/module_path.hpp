@@ -1,4 +1,4 @@
-// Where the modules lie that a program loads when it needs what they bring (gmsh, PETSc).
+// The paths of modules that a program loads only if a run needs them (gmsh, PETSc).
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace langer {
 
-// beside the programs, in the build folder as where they are installed
+// next to the programs, both in the build folder and where they are installed
 inline std::string module_path(const std::string& name) {
   const auto bin = std::filesystem::canonical("/proc/self/exe").parent_path();
   return (bin.parent_path() / ("lib/langer/langer_" + name + ".so")).string();

@@ -1,4 +1,4 @@
-// What a double says where there is no number, or no end.
+// Short names for the double that is not a number, and for infinity.
 #pragma once
 
 #include <limits>

@@ -1,6 +1,6 @@
-// Ranks: the processes that mpirun or srun has started for one solution. All of them follow the
-// same program with the same numbers; each has cells of its own, and what these make is summed.
-// Rank 0 alone speaks and writes.
+// Ranks: the processes that mpirun or srun has started for one solution. All of them run the same
+// program with the same numbers. Each assembles its own cells, and the contributions are summed.
+// Only rank 0 (the root) writes messages and files.
 #pragma once
 
 #include <cstddef>
@@ -59,10 +59,11 @@ inline Ranks*& ranks() {
   return all;
 }
 
-// Thrown on the other ranks where rank 0 has failed, which says why.
+// Thrown on the other ranks if rank 0 has failed; rank 0 gives the reason.
 struct EndedByRoot {};
 
-// Work of rank 0, which may throw, and whose answer all take; ranks: nullptr: alone.
+// Work that only rank 0 does and that may throw; all ranks return its answer. ranks: nullptr if
+// there is only one process.
 template <class Work>
 bool on_root_rank(const Ranks* ranks, Work work) {
   if (!ranks) return work();

@@ -1,7 +1,6 @@
-// Words to the person who waits, on stderr. That nobody reads any more (`2>&1 | head`) is no reason
-// to stop working. On a terminal a status line may stand below the words and is rewritten in place;
-// warnings and errors have a colour there, unless NO_COLOR is set. What is said goes to a log, too,
-// where there is one (--log).
+// Messages to the user, on stderr. A closed stderr (`2>&1 | head`) does not stop a run. On a
+// terminal there may be a status line below the messages, which is rewritten in place; warnings and
+// errors are coloured there, unless NO_COLOR is set. All messages also go to the log (--log).
 #pragma once
 
 #include <fmt/format.h>
@@ -70,7 +69,7 @@ inline void say_error(const std::string& lines) {
   say_raw("\033[31m" + lines.substr(0, end) + "\033[0m" + lines.substr(end), lines);
 }
 
-// replaces the status line; nothing where nobody could see it replaced
+// Replaces the status line; does nothing if stderr is no terminal.
 inline void say_status(const std::string& line) {
   if (!on_terminal() || said::silent) return;
   winsize size{};

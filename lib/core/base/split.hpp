@@ -1,5 +1,4 @@
-// A text in parts: what stands between separators; one at the end ends the last part and begins no
-// other.
+// Splits a text at separators. A separator at the end ends the last part and begins no further one.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Student's two-sided 95 % factor, for any number of degrees of freedom from 2 on; 1.96 for
-// infinitely many. Cornish and Fisher's expansion at the normal quantile: within 1 % at 2, 0.1 %
-// from 4 on.
+// Student's two-sided 95 % factor for 2 or more degrees of freedom; 1.96 for infinitely many. It
+// uses the expansion of Cornish and Fisher at the normal quantile: within 1 % for 2 degrees of
+// freedom and within 0.1 % from 4 on.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Floating-point traps: a build with LANGER_TRAPS stops at the first invalid operation, division by
-// zero or overflow. Third parties, and the few places of ours that compute first and look
-// afterwards, stand behind a NoTraps. Where a third party calls us back, Traps sets them again.
-// Without LANGER_TRAPS all are empty.
+// zero or overflow. Calls of other libraries, and the few places of ours that compute first and
+// check afterwards, are guarded by a NoTraps. If another library calls us back, Traps sets them
+// again. Without LANGER_TRAPS all are empty.
 #pragma once
 
 #ifdef LANGER_TRAPS
