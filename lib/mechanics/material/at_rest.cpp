@@ -18,7 +18,8 @@ AtRest at_rest(const Material& material) {
   const double mu = shear_modulus(material);
   if (std::isnan(mu)) return AtRest::unstable;  // moduli that are too large to add up
   if (std::abs(mu) <= 1e-12 * largest || mu == 0) return AtRest::without_stiffness;
-  return mu > 0 ? AtRest::stiff : AtRest::unstable;
+  if (mu > 0) return AtRest::stiff;
+  return AtRest::unstable;
 }
 
 std::string at_rest_in_words(const Material& material) {
@@ -46,8 +47,8 @@ std::string stiffness_at_rest_cure(const Material& material) {
     if (std::abs(more - shear_modulus(copy)) > 1e-9) append(keys, " or ", p.key);
   }
   return fmt::format(
-      "{} other than 0, such that the shear modulus is positive; a fit with bounds: admissible takes the least that its "
-      "tests can tell",
+      "{} other than 0, such that the shear modulus is positive; a fit with bounds: admissible uses "
+      "the smallest one that its tests can identify",
       text_or(keys, "a matrix term"));
 }
 

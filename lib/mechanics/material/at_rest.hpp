@@ -1,6 +1,6 @@
-// The stiffness of a law at rest. Fibres add none to a shear across them, however stiff: only the
-// matrix does, its shear modulus. Without it the tangent of a body at rest is singular, and no
-// first step can be found.
+// The stiffness of a material at rest. Fibres, however stiff, add nothing to a shear across them:
+// only the shear modulus of the matrix does. Without it the tangent of a body at rest is singular,
+// and Newton's method has no first step.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ AtRest at_rest(const Material& material);
 // "no stiffness at rest: the shear modulus of yeoh is 0 MPa"; empty where it is stiff
 std::string at_rest_in_words(const Material& material);
 
-// the numbers that would give stiffness, and what does: "matrix.yeoh.a1 above 0; ..."
+// the parameters that would give stiffness: "matrix.yeoh.a1 other than 0; ..."
 std::string stiffness_at_rest_cure(const Material& material);
 
 }  // namespace langer

@@ -1,6 +1,7 @@
-// Where an energy does not exist, or no double holds it, its invariant becomes NaN before the law
-// sees it. All that follows is then NaN too, without an invalid operation or an overflow on the
-// way, and the state is refused like every other that is not finite.
+// Domains of the energies. If an energy does not exist at a value of its invariant, or would
+// overflow, the invariant is replaced by NaN before the energy is evaluated. All results are then
+// NaN, without an invalid operation or an overflow on the way, and the state is refused like any
+// other that is not finite.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,7 @@
 
 namespace langer {
 
-// of c2 (I4_bar - 1)^2: forces of exp(300) = 2e130 and their squares are numbers still
+// The largest c2 (I4_bar - 1)^2: forces of exp(300) = 2e130 and their squares are still finite.
 constexpr double largest_exponent = 300;
 
 inline bool exists(const HgoFibre& fibre, double I4_bar) {
@@ -37,7 +38,7 @@ inline bool exists(const Gent& law, double I1_bar) {
   return !std::isgreaterequal(I1_bar - 3, law.Jm);
 }
 
-// a test at such a stretch, whose invariants and their powers are numbers still
+// The largest stretch of a test: its invariants and their powers are still finite.
 constexpr double largest_stretch = 1e20;
 inline bool possible_stretch(double lambda) {
   return std::isgreater(lambda, 1 / largest_stretch) && std::isless(lambda, largest_stretch);

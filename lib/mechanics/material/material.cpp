@@ -51,8 +51,8 @@ double shear_modulus(const MatrixTerm& term) {
 
 namespace {
 
-// Beyond this the law that is left says nothing, and a modulus of the instant law was meant, or
-// percent.
+// The largest sum of gamma. Above it the relaxed material would have almost no stress: probably a
+// modulus or a percentage was typed.
 constexpr double most_gamma = 1000;
 
 void complain_of_strengths(const Material& material, std::vector<Complaint>& found) {
@@ -67,7 +67,9 @@ void complain_of_strengths(const Material& material, std::vector<Complaint>& fou
     if (gamma > most_gamma)
       found.push_back(
           {key, fmt::format("found {:g}", gamma), fmt::format("at most {:g}", most_gamma), hint});
-    alone = alone || gamma > most_gamma, sum += gamma, last = key;
+    alone = alone || gamma > most_gamma;
+    sum += gamma;
+    last = key;
   }
   if (material.spectrum) {
     double of_spectrum = 0;
@@ -114,8 +116,8 @@ double shear_modulus(const Material& material) {
 
 namespace {
 
-// What a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C adds: with G = dW/dC_bar and H =
-// d2W/dC_bar2
+// The contribution of a sum over the eigenvalues e_a of C_bar = I3^(-1/3) C, with G = dW/dC_bar and
+// H = d2W/dC_bar2:
 //   dW/dC = I3^(-1/3) (G - (G:C)/3 C^-1), as of a term with M = G;  d2W/dC2 = that term's + Q^T H Q,  Q = dC_bar/dC
 struct StretchTerms {
   double W = 0;
@@ -152,7 +154,8 @@ StretchTerms stretch_terms(const Ogden& law, const Invariants& v, bool with_tang
   return s;
 }
 
-// the invariants of one C as for_each_term() asks for them; M of a family, in the reference state
+// The invariants of one C in the form that for_each_term() needs, with M of each family in the
+// reference state.
 struct ReferenceState {
   const Invariants& v;
   std::span<const Vec3> a;
@@ -169,8 +172,8 @@ struct ReferenceState {
   }
 };
 
-// factors of the terms and of their energies: of an elastic law, of the stress of an increment, of
-// its potential
+// Factors of the stresses and energies of the terms: of an elastic material, of the stress of a
+// viscous increment, and of the potential of such an increment.
 struct AsTheyAre {
   static constexpr double matrix = 1, fibres = 1, W_matrix = 1, W_fibres = 1;
 };
@@ -182,7 +185,8 @@ struct OfPotential {
   double matrix, fibres, W_matrix, W_fibres;
 };
 
-// the terms of one C, gathered before the derivatives of the invariants are formed once
+// W, S and D of all terms at one C. Terms that are linear in C are summed as one tensor M, so that
+// the derivatives of the invariants are formed only once.
 template <class Factors>
 Response isochoric(const Material& material, const Invariants& v, std::span<const Vec3> a,
                    const Mat6* C_inverse_product, const Factors& factors) {

@@ -32,8 +32,9 @@ void collect_member(V& value, const Member& m, const std::string& path, List& li
     for (std::size_t i = 0; i < value.size(); ++i)
       std::visit(
           [&](auto& term) {
-            collect(term, (once ? path : path + "[" + std::to_string(i) + "]") + "." + key(term),
-                    list);
+            std::string of_term = path;
+            if (!once) of_term += "[" + std::to_string(i) + "]";
+            collect(term, of_term + "." + key(term), list);
           },
           value[i]);
   } else if constexpr (is_choice<V>) {
@@ -55,12 +56,14 @@ void collect_member(V& value, const Member& m, const std::string& path, List& li
 template <Listed T>
 void collect(T& object, const std::string& path, List& list) {
   for_each_line(object, [&](const Member& m, auto& value) {
-    collect_member(value, m, path.empty() || !*m.key ? path + m.key : path + "." + m.key, list);
+    std::string of_member = path;
+    if (!path.empty() && *m.key) of_member += ".";
+    collect_member(value, m, of_member + m.key, list);
   });
 }
 
-// Two of one word that are not one quantity: the number of a law takes the law's name before its
-// own (exp_pow_alpha, beside the angle alpha of its family).
+// Two parameters of one name but different units: the deeper one gets the name of its term as a
+// prefix (exp_pow_alpha, because alpha is the angle of the family).
 void make_names_unique(List& list) {
   const auto depth = [](const MaterialParameter& p) {
     return std::count(p.key.begin(), p.key.end(), '.');

@@ -1,6 +1,6 @@
-// The numbers of a material by their YAML path: matrix.yeoh.a1, fibres[0].hgo.c1, fibres[0].alpha,
-// volume.quadratic.d. Where a matrix term stands twice the path has its index: matrix[1].yeoh.a1.
-// What fit varies and what sensitivity ranks is chosen from this list.
+// The parameters of a material by their YAML path: matrix.yeoh.a1, fibres[0].hgo.c1,
+// fibres[0].alpha, volume.quadratic.d. If a matrix term occurs twice, the path has its index:
+// matrix[1].yeoh.a1. Fits and sensitivity analyses choose their parameters from this list.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace langer {
 
 struct MaterialParameter {
   std::string key;   // path
-  std::string name;  // last word of the path, with a number where it comes again: a1, c1, alpha,
-                     // c1_2; exp_pow_alpha beside alpha
+  std::string name;  // last word of the path, with a number if it occurs again: a1, c1, alpha,
+                     // c1_2; exp_pow_alpha to distinguish it from the angle alpha
   std::string unit;
   Range range;  // that the law allows
   double* value = nullptr;

@@ -1,7 +1,7 @@
-// What looks doubtful in a material as a whole, before anything is solved.
+// Checks a material as a whole for doubtful values, before anything is solved.
 //
-// A law can be right in every number and still mean something else than its user wants. The bulk
-// modulus K and the shear modulus mu at rest give Poisson's ratio
+// Each parameter of a material can be valid, and the material still not be the intended one. The
+// bulk modulus K and the shear modulus mu at rest give Poisson's ratio
 //   nu = (3 K - 2 mu) / (2 (3 K + mu))
 // Soft tissue has 0.49 to 0.5. Below 0 a body grows sideways when it is pulled: mostly a bulk
 // modulus was typed for d = 2/K. Fibres of energies in I4_bar let a body change its volume if K is
@@ -18,7 +18,7 @@ namespace langer {
 
 struct MaterialFinding {
   std::string key;    // path of the number below the material
-  std::string words;  // what is found, what it leads to, and what may have been meant
+  std::string words;  // the finding, its consequence, and what may have been meant
 };
 
 double poisson_ratio(double bulk_modulus, double shear_modulus);

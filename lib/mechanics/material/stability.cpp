@@ -13,13 +13,20 @@ namespace langer {
 
 namespace {
 
-// zero where it is negative by no more than the difference quotient rounds
+// The slope by a central difference (one-sided at 0); zero if it is negative by no more than the
+// rounding of the difference.
 double slope_at(const Material& material, Path path, double x) {
   constexpr double h = 1e-5, rounding = 1e-10;
-  const PathState after = on_path(material, path, x + h),
-                  before = on_path(material, path, x > 0 ? x - h : x);
+  double below = x;
+  double width = h;
+  if (x > 0) {
+    below = x - h;
+    width = 2 * h;
+  }
+  const PathState after = on_path(material, path, x + h);
+  const PathState before = on_path(material, path, below);
   if (!after.exists || !before.exists) return nan;
-  const double width = x > 0 ? 2 * h : h, slope = (after.work - before.work) / width;
+  const double slope = (after.work - before.work) / width;
   const double noise = rounding * (std::abs(after.work) + std::abs(before.work)) / width;
   if (std::isless(slope, 0) && std::isgreater(slope, -noise)) return 0;
   return slope;
@@ -33,8 +40,8 @@ double ellipticity_at(const Material& material, Path path, double x) {
   return nan;
 }
 
-// first x at which `is` holds for f: the first interval with such an end, halved (NaN is compared
-// without a trap)
+// The first x at which `is` holds for f: bisection in the first interval at whose end it holds. NaN
+// is compared by functions that do not trap.
 template <class F, class Is>
 double first_place(const std::vector<double>& x, const std::vector<double>& values, F f, Is is) {
   const auto found = std::find_if(values.begin(), values.end(), is);
@@ -45,7 +52,10 @@ double first_place(const std::vector<double>& x, const std::vector<double>& valu
   double with = x[i];
   while (with - without > 1e-4) {
     const double middle = 0.5 * (without + with);
-    (is(f(middle)) ? with : without) = middle;
+    if (is(f(middle)))
+      with = middle;
+    else
+      without = middle;
   }
   return with;
 }
@@ -65,11 +75,8 @@ PathStability path_stability(const Material& material, Path path,
                              const std::vector<double>& amount) {
   PathStability s;
   s.path = path;
-  if (material.fibres.empty()) {
-    s.angle = 0;
-  } else {
-    s.angle = material.fibres[0].alpha_deg;
-  }
+  s.angle = 0;
+  if (!material.fibres.empty()) s.angle = material.fibres[0].alpha_deg;
   for (double x : amount) {
     const PathState state = on_path(material, path, x);
     s.nominal.push_back(state.exists ? state.nominal : nan);
@@ -88,6 +95,9 @@ PathStability path_stability(const Material& material, Path path,
   return s;
 }
 
+// Directions of ln U are drawn at random, on the sphere of symmetric tensors without trace. Along
+// each the norm grows in steps until ellipticity is lost or the energy has no value; bisection then
+// finds that place.
 HenckyReach hencky_reach(const Material& material, double most) {
   constexpr int directions = 300;
   constexpr double step = 0.1;
@@ -99,7 +109,7 @@ HenckyReach hencky_reach(const Material& material, double most) {
   for (int i = 0; i < directions; ++i) {
     Random random(1, static_cast<std::uint64_t>(i));
     Mat3 h = Mat3::Zero();
-    // the first ones are pulls and pushes along the axes, the worst for fibres along them
+    // the first six are tension and compression along the axes, the worst cases for fibres there
     if (i < 6)
       h(i / 2, i / 2) = i % 2 ? -1 : 1;
     else
@@ -118,9 +128,15 @@ HenckyReach hencky_reach(const Material& material, double most) {
       while (bad - good > 1e-3) {
         const double middle = 0.5 * (good + bad);
         const double at = stiffness(direction, middle);
-        (std::isgreaterequal(at, 0) || (lost && is_no_number(at)) ? good : bad) = middle;
+        if (std::isgreaterequal(at, 0) || (lost && is_no_number(at)))
+          good = middle;
+        else
+          bad = middle;
       }
-      (lost ? reach.safe : reach.end) = lost ? good : std::min(reach.end, good);
+      if (lost)
+        reach.safe = good;
+      else
+        reach.end = std::min(reach.end, good);
       break;
     }
   }
@@ -144,11 +160,7 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
   const auto n_paths = static_cast<int>(all_paths.size()) * angles;
   map.paths.resize(static_cast<std::size_t>(n_paths));
   double own = 0;
-  if (material.fibres.empty()) {
-    own = 0;
-  } else {
-    own = material.fibres[0].alpha_deg;
-  }
+  if (!material.fibres.empty()) own = material.fibres[0].alpha_deg;
   const std::vector<Vec3> a = fibre_directions(material);
   const auto compute = [&](int, int job) {
     if (job < n_paths) {

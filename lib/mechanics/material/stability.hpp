@@ -1,10 +1,13 @@
-// Where a law stops being stable, along the tests of material/path.hpp and in every fibre
+// Where a material stops being stable, along the tests of material/path.hpp and in every fibre
 // direction.
-//   slope         d work/d amount [MPa]: the nominal stress falls where it is negative (the test is then unstable under load)
-//   ellipticity   smallest shear stiffness [MPa] (material/ellipticity.hpp): solutions depend on the mesh where it is negative
-//   first losses  the amount at which each first turns negative, found to 1e-4; infinity where not up to the end
-//   end           the amount from which there is no number: no state is found, or no double holds it; no loss, but nothing is known
-//                 beyond. Negative by no more than rounding is not lost (material/ellipticity.hpp).
+//   slope         d work/d amount [MPa]. Negative: the nominal stress decreases, and the test is
+//                 unstable under load control
+//   ellipticity   smallest shear stiffness [MPa] (material/ellipticity.hpp). Negative: solutions
+//                 depend on the mesh
+//   first losses  the amount at which each first becomes negative, to 1e-4; infinity if it does not
+//   end           the amount from which no state is found, or a value overflows. This is no loss of
+//                 stability, but nothing is known beyond.
+// A value that is negative by no more than rounding is not a loss (material/ellipticity.hpp).
 #pragma once
 
 #include <functional>
@@ -51,8 +54,8 @@ StabilityMap stability_map(const Material& material, const StabilityOptions& opt
 PathStability path_stability(const Material& material, Path path,
                              const std::vector<double>& amount);
 
-// Largest Hencky norm below which no sampled state has lost strong ellipticity, looked for up to
-// `most`; a direction is followed as far as the law has numbers.
+// The largest Hencky norm, at most `most`, below which no sampled state has lost strong
+// ellipticity. Each direction is followed as long as the energy is finite.
 struct HenckyReach {
   double safe = 0, end = 0;  // of StabilityMap
 };

@@ -85,18 +85,16 @@ struct Sheet {
   }
 };
 
-// Newton's step on |W''|, which is downhill also where W is not convex, by a fifth at most
+// Newton's step with the absolute values of the eigenvalues of W'': it leads downhill also where W
+// is not convex. Each component is at most a fifth.
 Vec2 step(const Sample& s) {
   const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.curvature);
   const Vec2 along = eigen.eigenvectors().transpose() * s.slope;
   const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
   for (int i = 0; i < 2; ++i) {
-    if (along[i] == 0) {
-      d[i] = 0;
-    } else {
-      d[i] = -along[i] / curvature[i];
-    }
+    d[i] = 0;
+    if (along[i] != 0) d[i] = -along[i] / curvature[i];
   }
   return eigen.eigenvectors() * d;
 }
@@ -107,8 +105,9 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
                    acceptable = 1e6 * eps;
   std::optional<Sample> s = sheet.at(q);
   const auto steepness = [](const Sample& one) {
-    return one.scale > 0 ? one.slope.cwiseAbs().maxCoeff() / one.scale
-                         : 0;  // without any stiffness every state is as good
+    // without any stiffness, every state is a minimum
+    if (!(one.scale > 0)) return 0.0;
+    return one.slope.cwiseAbs().maxCoeff() / one.scale;
   };
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough);
@@ -132,7 +131,8 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   return steepness(*s) <= acceptable;
 }
 
-// every fibre along x: width and thickness of a pull are equal by symmetry
+// Whether every fibre is along x: then width and thickness of a uniaxial test are equal by
+// symmetry.
 bool axial(std::span<const Vec3> a) {
   return std::all_of(a.begin(), a.end(),
                      [](const Vec3& one) { return one[1] == 0 && one[2] == 0; });
@@ -144,14 +144,9 @@ PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKi
                        double first, double second, OffAxisShear shear, const PointMemory* memory) {
   const bool slides = kind == TestKind::simple_shear;
   const double lambda_x = slides ? 1 : first;
-  double lambda_z = 0;
-  if (kind == TestKind::biaxial) {
-    lambda_z = second;
-  } else if (kind == TestKind::equibiaxial) {
-    lambda_z = first;
-  } else {
-    lambda_z = 1;
-  }
+  double lambda_z = 1;
+  if (kind == TestKind::biaxial) lambda_z = second;
+  if (kind == TestKind::equibiaxial) lambda_z = first;
   PlaneState state;
   if (!possible_stretch(lambda_x) || !possible_stretch(lambda_z) ||
       !std::isless(std::abs(first), largest_stretch))
@@ -191,20 +186,15 @@ std::array<double, 2> measured_stress(const PlaneState& state, TestKind kind,
   const double xx = state.sigma(0, 0);
   const double zz = state.sigma(2, 2);
   const double xz = state.sigma(0, 2);
-  const bool slides = kind == TestKind::simple_shear;
-  switch (measure) {
-    case StressMeasure::cauchy:
-      return {slides ? xz : xx, slides ? 0 : zz};
-    case StressMeasure::nominal:
-      // P = sigma F^-T,  F^-1 = [1/fx, -g/(fx fz); 0, 1/fz]
-      return {slides ? xz / fz : (xx - g / fz * xz) / fx, slides ? 0 : zz / fz};
-    case StressMeasure::second_piola:
-      // S = F^-1 P
-      return {slides ? (xz - g / fz * zz) / (fx * fz)
-                     : (xx - 2 * g / fz * xz + g * g / (fz * fz) * zz) / (fx * fx),
-              slides ? 0 : zz / (fz * fz)};
+  // P = sigma F^-T,  F^-1 = [1/fx, -g/(fx fz); 0, 1/fz],  S = F^-1 P
+  if (kind == TestKind::simple_shear) {
+    if (measure == StressMeasure::cauchy) return {xz, 0};
+    if (measure == StressMeasure::nominal) return {xz / fz, 0};
+    return {(xz - g / fz * zz) / (fx * fz), 0};
   }
-  return {};
+  if (measure == StressMeasure::cauchy) return {xx, zz};
+  if (measure == StressMeasure::nominal) return {(xx - g / fz * xz) / fx, zz / fz};
+  return {(xx - 2 * g / fz * xz + g * g / (fz * fz) * zz) / (fx * fx), zz / (fz * fz)};
 }
 
 std::vector<Vec3> specimen_fibres(const Material& material, double angle_deg) {

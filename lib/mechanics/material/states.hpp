@@ -4,9 +4,9 @@
 //   uniaxial      lambda_x; lambda_z such that sigma_zz = 0          equibiaxial  lambda_x = lambda_z
 //   pure_shear    lambda_x; lambda_z = 1                             biaxial      lambda_x and lambda_z
 //   simple_shear  g, lambda_x = lambda_z = 1
-// Fibres off the axes want to shear the sheet: g = 0 where that is held, sigma_xz = 0 where it is
-// free. What is not imposed is found as the lowest energy downhill from the isotropic answer;
-// nothing is thrown.
+// Fibres off the axes tend to shear the sheet: g = 0 if the shear is held, sigma_xz = 0 if it is
+// free. Unknown stretches are those of the minimum of the energy that is reached downhill from the
+// isotropic answer. Nothing is thrown.
 #pragma once
 
 #include <array>
@@ -34,8 +34,8 @@ struct PlaneState {
   bool converged = false;
 };
 
-// first: lambda_x, or g in simple shear; second: lambda_z in a biaxial test, elsewhere without
-// meaning memory: of an increment of a viscous point, whose W is then its potential
+// first: lambda_x, or g in simple shear; second: lambda_z of a biaxial test, else unused. memory:
+// of an increment of a viscous point, whose W is then the potential of the increment
 PlaneState plane_state(const Material& material, std::span<const Vec3> a, TestKind kind,
                        double first, double second = 1, OffAxisShear shear = OffAxisShear::held,
                        const PointMemory* memory = nullptr);

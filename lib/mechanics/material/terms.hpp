@@ -1,17 +1,17 @@
-// The sum of isochoric energy terms at one state, for any number type: assembly, checks of
-// stability, homogeneous tests and with them fits evaluate a law through this alone.
+// The sum of isochoric energy terms at one state, for any number type. Assembly, checks of
+// stability, homogeneous tests and fits all evaluate a material through these functions.
 //   for_each_term(material, state, on)   on(kind, Energy) for each term in the order of the material: its value and derivatives with
 //                                        respect to its invariant; zero, or left out, for fibres that are slack
 //   kinds  OfI1, OfI2                    a term of I1_bar, of I2_bar; a term of both comes as one of each
-//          what state.family() gives     of a fibre family: I_k, and what the caller needs of it beside
-//          const Ogden&                  the law itself, without a value: a sum over the stretches
-// Kinds that `on` does not take are left out. matrix_terms() and fibre_terms() are its two halves.
+//          result of state.family()      of a fibre family: I_k, and further members for the caller
+//          const Ogden&                  the term itself, without a value: a sum over the stretches
+// Kinds for which `on` has no overload are left out. matrix_terms() and fibre_terms() are the two
+// halves.
 // A state has
 //   I1_bar(), I2_bar()   the invariants (the latter where `on` takes OfI2)
 //   m()                  I3^(-1/3)
 //   family(fibre, k)     with the member I = I_k (material.hpp) of the k-th family
-// Values of the invariants where a law does not exist become NaN before the law sees them
-// (existence.hpp).
+// Invariants outside the domain of a term become NaN before it is evaluated (existence.hpp).
 #pragma once
 
 #include <concepts>

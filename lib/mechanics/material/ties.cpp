@@ -14,8 +14,8 @@ namespace langer {
 
 namespace {
 
-// a number at the beginning of the text, which it leaves; nothing, and the text as it was, where
-// there is none
+// Reads a number at the beginning of the text and removes it. Without a number there the text stays
+// as it is.
 std::optional<double> number_at(std::string_view& text) {
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -63,19 +63,18 @@ std::optional<Tie> parse_tie(const std::string& key, const std::string& written)
 
 std::string tie_text(const Tie& tie) {
   std::string text;
-  if (tie.factor == 1) {
-    text = "";
-  } else if (tie.factor == -1) {
+  if (tie.factor == -1)
     text = "-";
-  } else {
+  else if (tie.factor != 1)
     text = fmt::format("{} * ", tie.factor);
-  }
   text += tie.of;
   if (tie.offset != 0)
     text += fmt::format(" {} {}", tie.offset < 0 ? '-' : '+', std::abs(tie.offset));
   return text;
 }
 
+// Each chain is followed for at most as many steps as there are ties; one that is longer is a
+// circle.
 ResolvedTies resolved(const std::vector<Tie>& ties) {
   ResolvedTies result;
   for (const Tie& tie : ties) {
@@ -100,11 +99,7 @@ ResolvedTies resolved(const std::vector<Tie>& ties) {
 
 TiedNumbers::TiedNumbers(Material& material, const std::vector<Tie>& ties) {
   std::vector<MaterialParameter> all;
-  if (ties.empty()) {
-    all = std::vector<MaterialParameter>();
-  } else {
-    all = parameters(material);
-  }
+  if (!ties.empty()) all = parameters(material);
   const auto number = [&](const std::string& key) {
     for (const MaterialParameter& p : all)
       if (p.key == key) return p.value;

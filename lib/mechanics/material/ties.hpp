@@ -1,5 +1,5 @@
-// Numbers of a law that follow others: fibres[1].alpha = -fibres[0].alpha, fibres[1].hgo.c1 =
-// fibres[0].hgo.c1.
+// Parameters of a material that follow others: fibres[1].alpha = -fibres[0].alpha, fibres[1].hgo.c1
+// = fibres[0].hgo.c1.
 //   key = factor * of + offset;   written  [-][factor *] of [+ offset | - offset]
 #pragma once
 
@@ -17,8 +17,8 @@ struct Tie {
 };
 
 std::optional<Tie> parse_tie(const std::string& key,
-                             const std::string& text);  // nothing where the text is no such sum
-std::string tie_text(const Tie& tie);                   // of what stands right of the equals sign
+                             const std::string& text);  // nothing if the text has another form
+std::string tie_text(const Tie& tie);                   // the right side of the equation
 
 // Chains followed to their ends, so that no tie follows a tied number. `circle`: a key that follows
 // itself, if there is one.

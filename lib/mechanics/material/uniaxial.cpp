@@ -138,9 +138,12 @@ std::optional<std::vector<double>> uniaxial_curve(const Material& material,
     const Uniaxial u = state(material, 1 + e, dilatation == Dilatation::incompressible);
     if (!u.converged) return std::nullopt;
     const double nominal = u.sigma * (1 + u.J_minus_1) / (1 + e);
-    stress.push_back(measure == StressMeasure::cauchy    ? u.sigma
-                     : measure == StressMeasure::nominal ? nominal
-                                                         : nominal / (1 + e));
+    if (measure == StressMeasure::cauchy)
+      stress.push_back(u.sigma);
+    else if (measure == StressMeasure::nominal)
+      stress.push_back(nominal);
+    else
+      stress.push_back(nominal / (1 + e));
   }
   return stress;
 }

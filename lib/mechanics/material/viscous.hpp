@@ -1,12 +1,12 @@
-// Finite linear viscoelasticity on the isochoric stress: branches beside the law, which is what is
-// left after all have relaxed.
+// Finite linear viscoelasticity of the isochoric stress: branches in parallel with the elastic
+// terms, which describe the material after all branches have relaxed.
 //                                                                            [S87], [H00] section 6.10
 //   S = S_vol + S_iso + sum Q_i,   Q_i' + Q_i / tau_i = gamma_i S_i',   S_i: S_iso of the terms that the branch belongs to
 // Over an increment, exact where S_i is linear in time, else of second order [TPG70]:
 //   Q_i(n+1) = keep Q_i(n) + follow (S_i(n+1) - S_i(n)),   keep = exp(-x),  follow = gamma_i (1 - exp(-x)) / x,  x = seconds / tau_i
-// short increments: 1 + sum gamma_i times the stress; long ones: the law alone. Q_i are second
-// Piola-Kirchhoff stresses, which rotations leave alone. With H = sum keep Q_i(n) - follow S_i(n),
-// known when the increment begins,
+// Short increments give 1 + sum gamma_i times the stress, long ones the elastic terms alone. Q_i
+// are second Piola-Kirchhoff stresses, which rotations do not change. With H = sum keep Q_i(n) -
+// follow S_i(n), known when the increment begins,
 //   S_iso + sum Q_i = (1 + sum follow) S_iso + H        and the tangent is (1 + sum follow) D_iso, term by term
 #pragma once
 
@@ -63,9 +63,9 @@ inline BranchStep branch_step(const ViscousBranch& branch, double seconds) {
   const double x = seconds / branch.tau;
   return {std::exp(-x), branch.gamma * (x > 0 ? -std::expm1(-x) / x : 1)};
 }
-// What another rule of second order, the midpoint rule exp(-x/2) in place of (1 - exp(-x))/x, would
-// make of the same change of stress: their difference tells the error of the increment, less than
-// that where the stress changes evenly.
+// The difference to another rule of second order, the midpoint rule with exp(-x/2) instead of
+// (1 - exp(-x))/x, for the same change of stress. It estimates the error of the increment; if the
+// stress changes at a constant rate, the error is smaller.
 inline double branch_step_error(const ViscousBranch& branch, double seconds) {
   const double x = seconds / branch.tau;
   return branch.gamma * (x > 0 ? std::abs(-std::expm1(-x) / x - std::exp(-x / 2)) : 0);

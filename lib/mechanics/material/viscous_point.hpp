@@ -1,4 +1,4 @@
-// One viscous point led through states of its own, as homogeneous tests are. material/viscous.hpp
+// The branch stresses of one viscous point along a homogeneous test (material/viscous.hpp).
 #pragma once
 
 #include <span>
