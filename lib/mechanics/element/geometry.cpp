@@ -6,8 +6,9 @@ namespace langer {
 
 namespace {
 
-// Gram-Schmidt, twice for the last digits. It starts from the linear functions of X that are near
-// to xi, eta, zeta: in them a long and thin cell is as round as any other.
+// The modes {1, X, Y, Z} of a cell, made orthonormal by Gram-Schmidt (twice, for the last digits).
+// It starts from the linear functions of X that are close to xi, eta and zeta: in these coordinates
+// a long and thin cell is as well conditioned as any other.
 void add_modes(const ReferenceCell& cell, const ElementNodes& X, ElementGeometry& geometry) {
   Vec3 middle = Vec3::Zero();
   Mat3 mean = Mat3::Zero();  // dX/dxi

@@ -2,8 +2,8 @@
 // reference volume, with stress and tangent pushed forward to the deformed state, where the strain
 // operator is sparse.   [A23] eqs 28-33
 //   K_ab = integral B_a^T c B_b + (g_a . tau g_b) I dV0,   g_a = F^-T dN_a/dX,  tau = F S F^T,  c = push-forward of D
-// Handles sums of terms in I1_bar and of up to four fibre families that act; packet_form() says no
-// to others, and solid() does them one by one.
+// Handles sums of terms in I1_bar and of up to four active fibre families. For all others
+// packet_form() is false, and solid() computes the elements one by one.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace langer {
 
-// What eight elements bring along: gradients dN_dX[n_dofs g + 3 a + k], weights, modes[n_modes g +
+// The geometry of eight elements: gradients dN_dX[n_dofs g + 3 a + k], weights, modes[n_modes g +
 // k], volume, and the fibre directions a0[family][k].
 struct PacketGeometry {
   int n_nodes = 0, n_gauss = 0;
@@ -26,7 +26,7 @@ struct PacketFibre {
   Packet a[3];
 };
 
-// What viscous branches add in an increment of eight elements (CellMemory): H[6 g + p]
+// The terms of viscous branches in an increment of eight elements (CellMemory): H[6 g + p]
 struct PacketMemory {
   Amplified amplified;
   const Packet* H;

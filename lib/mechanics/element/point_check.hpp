@@ -1,11 +1,11 @@
-// What the Gauss points of a cell tell about stability: F, and the smallest shear stiffness
+// Stability at the Gauss points of a cell: F, and the smallest shear stiffness
 // (material/ellipticity.hpp) over a fixed grid of wave normals, eight points at once.
 //   A(n, m) J = n.B n + sum 4 W_k'' (m.h_k n)^2,   B = sum 2 W_k' h_k,   m normal to n
 //   h_k  isochoric push-forward of an invariant's tensor: b_bar of I1_bar, kappa b_bar + (1 - 3 kappa) f f^T of a fibre family
-// because a shear  1 + eps m n^T  leaves J alone and turns an invariant into  I + 2 eps m.h n +
-// eps^2 n.h n. The grid finds the minimum from above, too high by a few percent of the spread of A
-// at worst; where the exact one matters, smallest_shear_stiffness() follows. Laws outside
-// packet_form() are sampled by it more coarsely, point by point.
+// because a shear  1 + eps m n^T  does not change J and changes an invariant to  I + 2 eps m.h n +
+// eps^2 n.h n. The minimum over the grid is an upper bound, too high by at most a few percent of
+// the spread of A; if the exact minimum matters, smallest_shear_stiffness() computes it. Materials
+// outside packet_form() are sampled by that function more coarsely, point by point.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ namespace langer {
 struct PointCheck {
   std::vector<Mat3> F;
   std::vector<double> J;
-  std::vector<double> stiffness;  // [MPa]; NaN where the law has no value
+  std::vector<double> stiffness;  // [MPa]; NaN where the energy has no value
 };
 
 void check_points(const Material& material, const ElementGeometry& geometry,

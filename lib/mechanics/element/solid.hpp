@@ -11,13 +11,14 @@
 // quadratic U:
 //   t_k = (1/V) integral m_k (J - 1) dV0,   W_vol = V kappa/2 sum t_k^2,   p = sum m_k kappa t_k;   K stays symmetric
 // Another U has W_vol = integral U(1 + sum t_k m_k) dV0 (dilatation.hpp).
-// What the four modes leave of J - 1 has a modulus of its own, `local`, as large as the cell's
-// compressive pressure: movements h that change J but no t_k meet p ((tr h)^2 - tr h^2) from the
-// second derivative of J, and where p < 0 and varies within the cell the first part drives them
-// apart: the cell buckles within itself though the body is stable [ABLR05]. Modes: kappa - local.
-// The tangent may use another pressure than kappa (J - 1): p_tangent, the one the last linear solve
-// predicted. J - 1 is formed from the displacement gradient, never as det F - 1. Refuses (returns
-// false) where some det F is not positive; f and K are then meaningless.
+// The part of J - 1 that the four modes do not represent has a modulus of its own, `local`, equal
+// to the largest compressive pressure of the cell. Reason: displacements h that change J but no t_k
+// have the energy p ((tr h)^2 - tr h^2) from the second derivative of J. For p < 0 that varies
+// within the cell its first part is destabilising: the cell buckles internally although the body is
+// stable [ABLR05]. The modes then have the modulus kappa - local. The tangent may use another
+// pressure than kappa (J - 1): p_tangent, as predicted by the last linear solve. J - 1 is computed
+// from the displacement gradient, never as det F - 1, which would lose its digits. Returns false if
+// some det F is not positive; f and K are then meaningless.
 #pragma once
 
 #include <span>
@@ -30,12 +31,12 @@
 
 namespace langer {
 
-// dilatations, each with its pressure, of a cell: t_k, or J - 1 at each Gauss point
+// The number of dilatations of a cell, each with its pressure: t_k, or J - 1 at each Gauss point.
 int n_pressures(Formulation f, int n_nodes);
-// that modulus [MPa] in a cell of linear_dilatation with pressures kappa t_k: the largest
-// compressive one at its Gauss points
+// The modulus `local` [MPa] of a cell of linear_dilatation with the pressures kappa t_k: the
+// largest compressive pressure at its Gauss points.
 double local_modulus(const ElementGeometry& geometry, const double* p);
-// its change where those pressures change by dp, on the side of the point that has the largest now
+// Its derivative if those pressures change by dp: that of the Gauss point with the largest value.
 double local_modulus_change(const ElementGeometry& geometry, const double* p, const double* dp);
 
 struct SolidElement {

@@ -1,4 +1,4 @@
-// The state of eight points at once as for_each_term() asks for it, in the deformed state
+// The state of eight points at once in the form that for_each_term() needs, in the deformed state
 // (components in the order of voigt.hpp):
 //   h  isochoric push-forward of an invariant's tensor, I = tr h: b_bar for I1_bar, kappa b_bar + (1 - 3 kappa) m (F a)(F a)^T for a
 //      family of fibres

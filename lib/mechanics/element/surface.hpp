@@ -11,8 +11,8 @@ namespace langer {
 void add_dead_traction(const Mesh& mesh, const std::vector<Facet>& facets, const Vec3& traction,
                        VecX& F);
 
-// What each node of facets has of their area in the reference state (n) [mm^2]: integral N_a dA.
-// Their sum is the area.
+// The share of each node in the area of facets in the reference state (n) [mm^2]: integral N_a dA.
+// The sum over the nodes is the area.
 VecX nodal_areas(const Mesh& mesh, const std::vector<Facet>& facets);
 
 // Nodal forces of a cell, one row per node [N], of a dead traction [MPa, per reference area] on one
@@ -22,9 +22,9 @@ ElementNodes dead_traction(const ReferenceCell& cell, int facet, const ElementNo
 // The same of a pressure of 1 MPa that follows its facet and pushes into the cell:
 //   f_a = -integral N_a x,1 x x,2                    x (nodes, 3): where the cell's nodes are now   [Wriggers, section 4.2.5]
 ElementNodes follower_pressure(const ReferenceCell& cell, int facet, const ElementNodes& x);
-// The symmetric part of df/dx, (3 nodes, 3 nodes) [N/mm]. What is left is skew and belongs to the
-// rim of the facet: at the edges that two loaded facets share it cancels, and where the rim is held
-// it does nothing.
+// The symmetric part of df/dx, (3 nodes, 3 nodes) [N/mm]. The rest is skew and is an integral over
+// the rim of the facet: it cancels at edges that two loaded facets share, and vanishes where the
+// rim is held.
 MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes& x);
 // df/dx dx, whole: what follower_pressure changes by to first order when its nodes move by dx [N]
 ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x,

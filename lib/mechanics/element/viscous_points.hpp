@@ -1,10 +1,11 @@
-// Branch stresses at the Gauss points of a body's cells, from increment to increment.
-// material/viscous.hpp They follow from the displacements of the increments that were accepted: who
-// replays those has them to the last digit.
-//   begin(seconds)   an increment; then H and amplified() stand in its equilibrium, whatever is tried
-//   end(...)         S_i at the displacements found, cell by cell
-//   accept(...)      they and Q_i become those that the next increment begins with; not called: the increment was not
-// Where the body is elastic there is none of this.
+// Branch stresses at the Gauss points of a body's cells, from increment to increment
+// (material/viscous.hpp). They follow from the displacements of the accepted increments: replaying
+// these gives them again to the last digit.
+//   begin(seconds)   begins an increment: H and amplified() then enter its equilibrium
+//   end(...)         computes S_i at the displacements found, cell by cell
+//   accept(...)      makes them and Q_i the start of the next increment; not called if the increment
+//                    is repeated
+// An elastic body has none of this.
 #pragma once
 
 #include <span>
@@ -15,8 +16,7 @@
 
 namespace langer {
 
-// What stands in the equilibrium of one cell's increment:  S_iso = matrix S_matrix + fibres
-// S_fibres + H
+// The terms of the branches in one cell's increment:  S_iso = matrix S_matrix + fibres S_fibres + H
 struct CellMemory {
   Amplified amplified;
   std::vector<Vec6> H;  // by Gauss point [MPa]
@@ -37,8 +37,8 @@ class ViscousPoints {
 
   void end(int e, const Material& material, const ElementGeometry& geometry,
            std::span<const Vec3> a, const ElementNodes& u);
-  // root of the mean square over the body of what the increment's length leaves uncertain in the
-  // branch stresses, over the greatest such mean of S_iso so far
+  // error of the branch stresses by the length of the increment: the root mean square over the
+  // body, relative to the largest such mean of S_iso so far
   double error() const;
   // u0, u: displacements where the increment began and where it ends
   void accept(int e, const ElementGeometry& geometry, const ElementNodes& u0,
@@ -47,9 +47,9 @@ class ViscousPoints {
 
   Vec6 stress(int e, int g) const;  // sum Q_i, accepted [MPa]
   std::vector<Vec6> stresses(int e) const;
-  // integral of sum Q_i : E' at a Gauss point since rest [MPa]: dissipated, or in the branches
-  // until they relax. A cycle that is closed by holding costs this and nothing else: where it is
-  // negative the law gives work for nothing.
+  // integral of sum Q_i : E' at a Gauss point since rest [MPa]: dissipated, or stored in the
+  // branches until they relax. This is the whole work of a cycle that ends with a hold; if it is
+  // negative, the material produces energy.
   double work(int e, int g) const {
     if (work_.empty()) return 0;
     return work_[point(e, g)];

@@ -82,8 +82,12 @@ int CutMesh::middle(const std::vector<int>& corners) {
     return node;
   };
   if (corners.size() == 8) return added();
-  int& node = corners.size() == 2 ? edges_.try_emplace(key_of<2>(corners), -1).first->second
-                                  : facets_.try_emplace(key_of<4>(corners), -1).first->second;
+  int* known = nullptr;
+  if (corners.size() == 2)
+    known = &edges_.try_emplace(key_of<2>(corners), -1).first->second;
+  else
+    known = &facets_.try_emplace(key_of<4>(corners), -1).first->second;
+  int& node = *known;
   if (node < 0) node = added();
   return node;
 }

@@ -1,10 +1,11 @@
-// Cells cut into eight, beside others that are not: where results ask for short cells, and nowhere
-// else.
-//   2:1      cells that share a node differ by one cut at most; what that asks for is cut too. So an edge or a facet of a larger cell has
-//            one node in its middle at most, and none of those that it hangs on hangs itself (Mesh::hanging, mesh/hanging.hpp)
-//   places   new nodes lie in the middles of edges, facets and cells: the body keeps the surface that it had
-//   kept     bodies, frames and sets: a node between nodes of a set is in it, so are the quarters of a facet
-// hex8 that are no section.
+// Local refinement: marked cells are cut into eight, next to others that are not.
+//   2:1      cells that share a node differ by at most one cut; further cells are cut to ensure this.
+//            So an edge or a facet of a larger cell has at most one node in its middle, and the nodes
+//            that this depends on are not hanging themselves (Mesh::hanging, mesh/hanging.hpp)
+//   places   new nodes are the middles of edges, facets and cells: the surface of the body stays
+//   kept     bodies, frames and sets: a node between nodes of a set is in it, and so are the quarters
+//            of a facet
+// For hex8 only, not for sections.
 #pragma once
 
 #include <array>
@@ -36,7 +37,7 @@ class CutMesh {
   std::map<std::array<int, 4>, int> facets_;
 };
 
-// The part of a cell that a region must have for it to be cut lies within the cell's bounding box.
+// Whether a region contains a part of a cell, by the bounding box of the cell.
 struct CutRegion {
   Vec3 from, to;  // box, or the vertical cylinder in it
   bool round = false;

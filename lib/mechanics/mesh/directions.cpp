@@ -65,8 +65,9 @@ Directions make_directions(const Mesh& mesh, const std::vector<std::vector<doubl
   const FirstFamily no_field;
   std::vector<std::size_t> cells_before(angles.size(), 0);  // of the same body
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const std::size_t body = angles.size() > 1 ? static_cast<std::size_t>(mesh.body[e]) : 0,
-                      i = cells_before[body]++;
+    std::size_t body = 0;
+    if (angles.size() > 1) body = static_cast<std::size_t>(mesh.body[e]);
+    const std::size_t i = cells_before[body]++;
     Mat3 frame = Mat3::Identity();
     if (!mesh.frames.empty()) frame = mesh.frames[e];
     const FirstFamily& first = fields.empty() ? no_field : fields[body];

@@ -1,9 +1,8 @@
-// Directions of the fibres, by cell and family: a property of the cells, not of the law. They are
-// made once, here, and whoever needs them takes them: assembly, results, stability and files. [A23]
-// eq. 1
+// Directions of the fibres, by cell and family: a property of the cells, not of the material. They
+// are computed once, here, for assembly, results, stability and files. [A23] eq. 1
 //   angle   of a family in a body [deg]: a = cos(alpha) e_x + sin(alpha) e_z in the cell's frame
-//   field   what it says of the first family, cell by cell; further families keep the angle that they have to the first
-// Angles of fibres become radians here and nowhere else.
+//   field   the direction of the first family, cell by cell; further families keep their angle to it
+// Angles of fibres are converted to radians only here.
 #pragma once
 
 #include <span>
@@ -27,7 +26,7 @@ class Directions {
   int n_families() const;  // the most that any cell has
   bool from_field() const {
     return from_field_;
-  }  // angles and frames do not tell them: files keep them
+  }  // then angles and frames do not determine them, and files store them
   int n_stored() const {
     return static_cast<int>(stored_.size());
   }  // lists in memory: cells in a row with the same share one

@@ -17,18 +17,20 @@ MovingNodes::MovingNodes(const Mesh& mesh) : mesh_(mesh) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const auto nodes = mesh.cell(e);
     if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return hangs[n] != nullptr; }))
-      take(e, hangs);
+      add_cell(e, hangs);
   }
 }
 
-void MovingNodes::take(int e, const std::vector<const HangingNode*>& hangs) {
+void MovingNodes::add_cell(int e, const std::vector<const HangingNode*>& hangs) {
   const auto own = mesh_.cell(e);
   std::array<int, 8> moves;
   std::vector<int> others;  // ascending
   for (std::size_t a = 0; a < 8; ++a) {
-    moves[a] = hangs[own[a]] ? -1 : own[a];
-    if (hangs[own[a]])
-      others.insert(others.end(), hangs[own[a]]->of.begin(), hangs[own[a]]->of.end());
+    moves[a] = own[a];
+    if (const HangingNode* h = hangs[own[a]]) {
+      moves[a] = -1;  // replaced below
+      others.insert(others.end(), h->of.begin(), h->of.end());
+    }
   }
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());

@@ -1,9 +1,10 @@
-// What moves a cell beside larger ones. A hanging node has no displacement of its own: u = (u_a +
-// u_b) / 2 in the middle of an edge, the mean of four in that of a facet (Mesh::hanging). A cell
-// with m of them has m corners of others in their place, those of the larger cell that it was cut
-// from; so it has eight nodes that move it, and as shape functions
+// Hanging nodes: the nodes whose displacements move a cell next to larger ones. A hanging node has
+// no displacement of its own: u = (u_a + u_b) / 2 in the middle of an edge, the mean of four in the
+// middle of a facet (Mesh::hanging). A cell with m hanging nodes depends on m corners of the larger
+// cell that it was cut from instead, so it still has eight nodes that move it, with the shape
+// functions
 //   N'_b = sum_a C_ab N_a,   u_a = sum_b C_ab u_b   at its own eight nodes
-// with which forces, tangents and dilatations are those of any other cell.
+// With these, forces, tangents and dilatations are computed as in any other cell.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ class MovingNodes {
   const MatX* weights(int e) const;      // C (8, 8); none where no node of the cell hangs
 
  private:
-  void take(int e, const std::vector<const HangingNode*>& hangs);
+  void add_cell(int e, const std::vector<const HangingNode*>& hangs);
 
   const Mesh& mesh_;
   std::vector<int> row_;  // by cell, into what follows; -1
@@ -31,10 +32,11 @@ class MovingNodes {
   std::vector<MatX> weights_;
 };
 
-// that of a node, of those of a mesh; nullptr: it moves by itself
+// The entry of a node in the list of a mesh; nullptr if the node is not hanging.
 const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node);
 
-// sums of nodes (areas, forces): what hanging ones have goes to those that they hang on
+// For nodal sums (areas, forces): the values of hanging nodes are distributed to the nodes that
+// they depend on.
 template <class Values>
 void fold_hanging(const Mesh& mesh, Values& sums) {
   for (const HangingNode& h : mesh.hanging) {
@@ -43,18 +45,19 @@ void fold_hanging(const Mesh& mesh, Values& sums) {
   }
 }
 
-// values at nodes, 0 at hanging ones, which get the mean of those that they hang on
+// For nodal values that are 0 at hanging nodes: these get the mean of the nodes that they depend
+// on.
 template <class Values>
 void spread_to_hanging(const Mesh& mesh, Values& values) {
   for (const HangingNode& h : mesh.hanging)
     for (int n : h.of) values[h.node] += 0.25 * values[n];
 }
 
-// these, ascending, and those that hang on no others than these
+// The given nodes, ascending, and the hanging nodes that depend on these only.
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes);
 
-// "", or why nothing can hang so: other cells than hex8, nodes in no order, away from the middle,
-// on some that hang themselves
+// The reason why hanging nodes of a mesh are not valid: other cells than hex8, wrong order, not in
+// the middle, dependent on another hanging node. Empty if they are valid.
 std::string hanging_fault(const Mesh& mesh);
 
 }  // namespace langer

@@ -20,8 +20,7 @@
 
 namespace langer {
 
-// Whatever else depends on the type of a cell stands in its row, the reference cell
-// (mesh/reference.hpp).
+// All other properties of a cell type are in its reference cell (mesh/reference.hpp).
 enum class CellType { hex8, hex27, tet15 };
 constexpr auto names(CellType) { return std::array{"hex8", "hex27", "tet15"}; }
 constexpr int nodes_per_cell(CellType type) {
@@ -44,7 +43,8 @@ struct Section {
   friend bool operator==(const Section&, const Section&) = default;
 };
 
-// Moves with the mean of four nodes: the corners of a facet, or twice the ends of an edge.
+// A node that moves with the mean of four others: the corners of a facet, or the ends of an edge,
+// each twice.
 struct HangingNode {
   int node = 0;
   std::array<int, 4> of{};

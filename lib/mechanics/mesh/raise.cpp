@@ -22,7 +22,8 @@ std::vector<int> corners_around(const ReferenceCell& cell, std::size_t node) {
 }
 
 // Shape functions of the cell whose nodes are the corners and the middles of edges: of a hexahedron
-// serendipity
+// Shape functions of corners and middles of edges: serendipity functions of a hexahedron, quadratic
+// ones of a tetrahedron.
 VecX shape_with_edges(const ReferenceCell& cell, const Vec3& xi) {
   const VecX L = cell.corner_shape(xi);
   VecX N = VecX::Zero(L.size() + static_cast<Eigen::Index>(cell.edge.size()));
@@ -31,11 +32,10 @@ VecX shape_with_edges(const ReferenceCell& cell, const Vec3& xi) {
     const std::vector<int> ends = corners_around(cell, static_cast<std::size_t>(n));
     const double a = L[ends[0]];
     const double b = L[ends[1]];
-    if (cell.hexahedron()) {
-      N[n] = (a + b > 0 ? 4 * a * b / (a + b) : 0);
-    } else {
+    if (!cell.hexahedron())
       N[n] = 4 * a * b;
-    }
+    else if (a + b > 0)
+      N[n] = 4 * a * b / (a + b);
     for (int end : ends) N[end] -= 0.5 * N[n];
   }
   return N;

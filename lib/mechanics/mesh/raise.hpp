@@ -1,4 +1,4 @@
-// Cells of second order from those with fewer nodes: the new nodes lie in the middles of edges,
+// Cells of second order from those with fewer nodes: the new nodes are the middles of edges,
 // facets and cells. For meshes whose nodes and cells have no names yet (sets, bodies, frames come
 // later).
 #pragma once

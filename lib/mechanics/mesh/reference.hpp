@@ -121,8 +121,8 @@ struct FacetPoint {
   Vec3 along_1, along_2;
 };
 
-// A cell of Abaqus and CalculiX that becomes one of ours; letters behind the name (C3D8R, C3D10MH)
-// say nothing of its nodes.
+// A cell of Abaqus and CalculiX that is read as one of ours. Letters after the name (C3D8R,
+// C3D10MH) do not change its nodes.
 struct AbaqusCell {
   const char* name;
   std::vector<int>
@@ -147,7 +147,7 @@ struct CellNames {
   std::vector<int> febio_order;  // our node by theirs
 };
 
-// Any of them as tables, for loops that do not care which.
+// Any of them as tables, for code that works with every type of cell.
 struct ReferenceCell {
   CellType type;
   CellNames names;

@@ -14,10 +14,11 @@ namespace langer {
 namespace {
 
 double depth_at(const Section& section, const Vec3& X, double share) {
-  return share * section.depth * (section.of == SectionOf::axisymmetric ? X[0] : 1);
+  if (section.of == SectionOf::axisymmetric) return share * section.depth * X[0];
+  return share * section.depth;
 }
 
-// local nodes of a cell: those with zeta = -1, and behind each the further ones
+// Local nodes of a cell: each with zeta = -1, followed by those behind it.
 std::vector<std::vector<int>> columns(const ReferenceCell& cell) {
   const auto& node = cell.node;
   std::vector<std::vector<int>> columns;
@@ -98,7 +99,7 @@ std::string section_fault(const Mesh& mesh) {
     if (X[0] != front[0] || X[1] != front[1] || !(std::abs(X[2] - z) <= 1e-12 * std::abs(z)))
       return fmt::format("node {} is not behind node {}", i, i % n);
     if (section.of == SectionOf::axisymmetric && X[0] < 0)
-      return fmt::format("node {} lies at the radius {} mm", i, X[0]);
+      return fmt::format("node {} has the radius {} mm", i, X[0]);
   }
   const auto in_cell = columns(mesh.cell());
   for (int e = 0; e < mesh.n_cells(); ++e)

@@ -26,14 +26,14 @@ std::vector<Image> section_ties(const Mesh& mesh);
 
 // One layer of cells, zeta along z, in whatever order and place along z -> a section.
 void make_section(Mesh& mesh, const Section& section);
-// what keeps a mesh that says it is a section from being one; empty where nothing does
+// the reason why a mesh with a `section` is no valid one; empty if it is
 std::string section_fault(const Mesh& mesh);
 
 std::vector<int> through_layers(const Mesh& mesh, const std::vector<int>& nodes);  // ascending
 std::vector<int> in_front(const Mesh& mesh, const std::vector<int>& nodes);        // those in z = 0
 
-// The section with a depth of 2 mm everywhere: what says how well its cells are shaped. det dX/dxi
-// is that of the plane.
+// The section with a depth of 2 mm everywhere, for measures of the shape of its cells: det dX/dxi
+// is then that of the plane.
 Mesh as_plate(const Mesh& mesh);
 
 }  // namespace langer

@@ -136,8 +136,8 @@ void name_sides(Mesh& mesh) {
   for (const char* axis : {"x", "y", "z"})
     for (bool high : {false, true}) {
       const std::string name = std::string(axis) + (high ? "_max" : "_min");
-      const std::vector<int> nodes =
-          select(mesh, OnPlane{axis, (high ? b.high : b.low)[index(axis)]}, all);
+      const Vec3& corner = high ? b.high : b.low;
+      const std::vector<int> nodes = select(mesh, OnPlane{axis, corner[index(axis)]}, all);
       mesh.facet_sets[name] = facets_within(mesh, outer, nodes);
       mesh.node_sets[name] = nodes;
     }

@@ -78,7 +78,8 @@ void keep_cells(const Mesh& mesh, const std::vector<Symmetry>& group, double tol
 // The mesh of the kept cells; returns the kept node of each node of the whole, -1 where no kept
 // cell has it.
 std::vector<int> make_part(const Mesh& mesh, Quotient& q) {
-  q.mesh.type = mesh.type, q.mesh.bodies = mesh.bodies;
+  q.mesh.type = mesh.type;
+  q.mesh.bodies = mesh.bodies;
   std::vector<int> kept_node(mesh.X.size(), -1);
   for (int e : q.cell) {
     if (!mesh.body.empty()) q.mesh.body.push_back(mesh.body[e]);

@@ -1,9 +1,9 @@
 // Symmetries of a mesh: mirror planes and half turns whose planes and axes are parallel to the
 // coordinate planes and axes, and the part of a mesh that stands for the whole of it.
 //   X' = centre + S (X - centre),   S = diag(signs):  (-1, 1, 1) mirrors x;  (-1, 1, -1) turns by 180 degrees about y
-// A field with the same symmetry obeys u(X') = S u(X); so the kept cells and the nodes of them
-// decide the rest. Whatever cell or node is its own image is kept with the share that falls to it:
-// the reduced energy is that of the whole body, exactly.
+// A field with the same symmetry satisfies u(X') = S u(X), so the kept cells and their nodes
+// determine all others. A cell or node that is its own image is kept with its share: the reduced
+// energy is exactly that of the whole body.
 #pragma once
 
 #include <optional>
@@ -46,9 +46,9 @@ std::vector<Symmetry> group_of(const Mesh& mesh, const std::vector<Symmetry>& ge
 // By the group of one or two commuting symmetries.
 Quotient quotient(const Mesh& mesh, const std::vector<Symmetry>& generators);
 
-// The other ways in which a field can go with the symmetries: u(X') = -S u(X) under some of the
-// generators. Every movement of the whole body is a sum of the symmetric one and one of each of
-// these kinds, and a symmetric tangent does not couple them. By kind, the ties of the kept nodes.
+// Antisymmetric fields: u(X') = -S u(X) under some of the generators. Every displacement of the
+// whole body is a sum of a symmetric field and one of each of these kinds, and a symmetric tangent
+// does not couple them. The result is, by kind, the ties of the kept nodes.
 std::vector<std::vector<Image>> symmetry_breaking_ties(const Mesh& mesh,
                                                        const std::vector<Symmetry>& generators,
                                                        const Quotient& q);
