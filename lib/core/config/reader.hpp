@@ -5,7 +5,8 @@
 //
 //   auto [config, where, notices] = read_config<SolveConfig>(load_yaml("solve.yaml"));
 //   where("contacts[0].friction")  ->  Place, for errors found later
-//   notices                        ->  keys and words by their former names (base/former.hpp), read as what they are called now
+//   notices                        ->  keys and words by their former names (base/former.hpp),
+//                                  read as what they are called now
 #pragma once
 
 #include <algorithm>

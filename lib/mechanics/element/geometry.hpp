@@ -1,7 +1,8 @@
 // What the integrals over one element's reference volume need.
 //   dN_dX[g]  (nodes,3) gradients of the shape functions with respect to X at Gauss point g [1/mm]
 //   w[g]      weight times Jacobian [mm^3];  V their sum
-//   mode[g]   cells of second order: 1 and three linear functions of X, orthonormal in the mean over the element:
+//   mode[g]   cells of second order: 1 and three linear functions of X, orthonormal in the mean
+//             over the element:
 //             integral mode_i mode_j dV0 = V delta_ij. They span {1, X, Y, Z} whatever the cell's shape and direction.
 #pragma once
 

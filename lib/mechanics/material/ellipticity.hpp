@@ -1,7 +1,8 @@
 // Strong ellipticity of an incompressible material in a deformed state: whether every shear wave
 // has a real speed.
 //   A(n, m) = (m n):c:(m n) + n.sigma n  over unit vectors m normal to n, in the deformed state
-//   c  push-forward of D, sigma Cauchy stress, both of the isochoric part: the pressure cancels for m normal to n
+//   c  push-forward of D, sigma Cauchy stress, both of the isochoric part: the pressure cancels
+//      for m normal to n
 // The smallest value [MPa] is the shear modulus at rest; where it is negative, bands of intense
 // shear may form and solutions of a mesh depend on the mesh. A value below zero by less than 1e-12
 // of the terms that make it is rounding: 0.

@@ -3,8 +3,10 @@
 //   W(C) = sum matrix_i(I1_bar, I2_bar or stretches) + sum fibre_k(I_k) + volume(J)
 //   I_k = kappa I1_bar + (1 - 3 kappa) I4_bar_k = I3^(-1/3) M:C,  M = kappa I + (1 - 3 kappa) a a^T       [GOH06]
 //   S = 2 dW/dC,  D = 4 d2W/dC2
-//   C   right Cauchy-Green tensor (3,3);  a  unit fibre direction of each family in the reference state
-//   S   second Piola-Kirchhoff stress [MPa], components;  D  (6,6) [MPa], S = D E with engineering shear in E
+//   C   right Cauchy-Green tensor (3,3);  a  unit fibre direction of each family in the reference
+//       state
+//   S   second Piola-Kirchhoff stress [MPa], components;  D  (6,6) [MPa], S = D E with engineering
+//       shear in E
 // The fibre acts where I_k >= 1 (default, W is C1) or where M:C >= 1 (the paper's eq. 16; S jumps
 // when J != 1).
 #pragma once
