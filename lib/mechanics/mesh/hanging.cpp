@@ -91,7 +91,8 @@ std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
 }
 
 std::string hanging_fault(const Mesh& mesh) {
-  if (mesh.type != CellType::hex8 || mesh.section) return "in a mesh of other elements than hex8";
+  if (mesh.type != CellType::hex8 || mesh.section)
+    return "hanging nodes in a mesh of other elements than hex8";
   int before = -1;
   for (const HangingNode& h : mesh.hanging) {
     if (h.node <= before) return fmt::format("node {} behind node {}", h.node, before);
