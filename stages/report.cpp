@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/base/counted.hpp"
+#include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
 #include "report/page.hpp"
 #include "report/report_config.hpp"
@@ -13,10 +14,13 @@
 namespace langer {
 namespace {
 
+// The default title: names of the two innermost folders of the page.
 std::string folder_title(const std::string& output) {
   const auto folder = std::filesystem::absolute(output).lexically_normal().parent_path();
   return folder.parent_path().filename().string() + ": " + folder.filename().string();
 }
+
+bool is_warning(const report::Verdict& v) { return v.level == report::Level::warning; }
 
 std::vector<Summary> report_on(const Job<ReportConfig>& job) {
   using namespace report;
@@ -27,30 +31,24 @@ std::vector<Summary> report_on(const Job<ReportConfig>& job) {
                                       "--solution, --curves, --table, --material, ...",
                                       ""});
   ReportPage page;
-  if (job.config.title.empty()) {
-    page.title = folder_title(job.output);
-  } else {
-    page.title = job.config.title;
-  }
-  std::map<std::string, std::vector<Source>> of;
-  for (const auto& [port, files] : job.inputs) of[port] = labelled(files);
-  add_materials(page, of["material"]);
-  add_solutions(page, of["solution"], job.config);
-  add_curves(page, of["curves"]);
-  add_sweeps(page, of["table"]);
-  add_sensitivities(page, of["sensitivity"]);
+  page.title = text_or(job.config.title, folder_title(job.output));
+  std::map<std::string, std::vector<Source>> sources;  // by the name of their port
+  for (const auto& [port, files] : job.inputs) sources[port] = labelled(files);
+  add_materials(page, sources["material"]);
+  add_solutions(page, sources["solution"], job.config);
+  add_curves(page, sources["curves"]);
+  add_sweeps(page, sources["table"]);
+  add_sensitivities(page, sources["sensitivity"]);
   for (const auto& [port, title] : {std::pair{"curves", "Curves: last state"},
                                     {"material", "Fits"},
                                     {"sensitivity", "Sensitivity"},
                                     {"mesh", "Meshes"}})
-    if (!of[port].empty()) add_summaries(page, title, of[port]);
+    if (!sources[port].empty()) add_summaries(page, title, sources[port]);
   for (const char* port : {"mesh", "material", "sensitivity", "solution", "curves", "table"})
-    for (const Source& source : of[port]) add_origin(page, source);
+    for (const Source& source : sources[port]) add_origin(page, source);
   const std::string text = html(page);
   write_text_file(job.output, text);
-  const auto warnings = static_cast<std::size_t>(
-      std::count_if(page.verdicts.begin(), page.verdicts.end(),
-                    [](const Verdict& v) { return v.level == Level::warning; }));
+  const auto warnings = static_cast<std::size_t>(std::ranges::count_if(page.verdicts, is_warning));
   job.say("{}: {:.1f} MB, {}, {}, {}, {}{}", std::filesystem::path(job.output).filename().string(),
           static_cast<double>(text.size()) * 1e-6, counted(warnings, "warning"),
           counted(page.charts.size() + page.polars.size(), "chart"),

@@ -16,7 +16,7 @@ namespace langer::report {
 
 namespace {
 
-// a number with as many digits as mean something to a reader; words as they are
+// A number in at most five significant digits. Words and short numbers stay as they are written.
 std::string short_number(const std::string& word) {
   double x = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
@@ -24,12 +24,14 @@ std::string short_number(const std::string& word) {
   return fmt::format("{:.5g}", x);
 }
 
-// "yeoh: a1 0.012, a2 0.3; hgo: ..." of a part of a config
+// A part of a config on one line, such as "yeoh: a1 0.012, a2 0.3; hgo: ...". Items of a list of
+// maps are separated by semicolons, because commas separate the keys inside of an item.
 std::string flat(const Tree& tree) {
   if (tree.kind == Tree::Kind::scalar) return short_number(tree.scalar);
   std::string text;
-  for (const Tree& item : tree.list)
-    text += (text.empty() ? "" : tree.list[0].kind == Tree::Kind::map ? "; " : ", ") + flat(item);
+  std::string_view separator = ", ";
+  if (!tree.list.empty() && tree.list[0].kind == Tree::Kind::map) separator = "; ";
+  for (const Tree& item : tree.list) append(text, separator, flat(item));
   for (const auto& [key, value] : tree.map) {
     if (value.kind == Tree::Kind::null) continue;
     const bool deep = value.kind == Tree::Kind::map;
@@ -38,7 +40,8 @@ std::string flat(const Tree& tree) {
   return text;
 }
 
-// "along −y", "along x", "(2, -0.3, 0) mm"
+// The direction of a displacement: "along −y", "along x", or "along (0.9, -0.3, 0)" as a unit
+// vector where it is not parallel to an axis.
 std::string along(const Vec3& u) {
   const double size = u.norm();
   for (int k = 0; k < 3; ++k)
@@ -47,6 +50,7 @@ std::string along(const Vec3& u) {
   return fmt::format("along ({:.3g}, {:.3g}, {:.3g})", u[0] / size, u[1] / size, u[2] / size);
 }
 
+// The size of the body's bounding box; of a section, the size of the body of revolution.
 std::string size_of(const Mesh& mesh) {
   Vec3 low = mesh.X[0];
   Vec3 high = mesh.X[0];
@@ -65,12 +69,15 @@ std::string size_of(const Mesh& mesh) {
   return fmt::format("{:.4g} × {:.4g} × {:.4g} mm", size[0], size[1], size[2]);
 }
 
+// The shape of an indenter in words, from the key `rigid` of its contact.
 std::string shape_words(const Tree* rigid) {
   if (!rigid || rigid->map.empty()) return "an indenter";
   const auto& [shape, keys] = rigid->map[0];
-  const Tree* radius = keys.find("radius");
-  return (shape == "ellipsoid" ? "an " : "a ") + shape +
-         (radius ? fmt::format(" of radius {} mm", radius->scalar) : "");
+  std::string text = "a " + shape;
+  if (shape == "ellipsoid") text = "an " + shape;
+  if (const Tree* radius = keys.find("radius"))
+    text += fmt::format(" of radius {} mm", radius->scalar);
+  return text;
 }
 
 struct Reached {
@@ -78,6 +85,8 @@ struct Reached {
   bool last = false;
 };
 
+// The step at which the indenter has travelled furthest. The last step counts unless an earlier
+// one is clearly deeper, because the error estimate belongs to the last step.
 Reached deepest(const SolutionReader& solution) {
   Reached best{solution.step(solution.n_steps() - 1), true};
   for (int i = 0; i + 1 < solution.n_steps(); ++i)
@@ -86,13 +95,14 @@ Reached deepest(const SolutionReader& solution) {
   return best;
 }
 
-// with its sign: positive where the body resists the travel
+// The indenter force along its travel [N], positive where the body resists the motion.
 double resisting(const StepRecord& step) {
   const double travel = step.u_ind.norm();
   if (travel > 0) return -step.force_ind.dot(step.u_ind) / travel;
   return step.force_ind.norm();
 }
 
+// The force with its error bar, if an estimate is available.
 std::string with_error(double force, const KnownError& error) {
   if (std::isfinite(error.percent)) {
     return fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent);
@@ -100,43 +110,56 @@ std::string with_error(double force, const KnownError& error) {
   return fmt::format("{:.4g}\u00a0N", force);
 }
 
-void tell_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {
-  const auto [step, last] = deepest(solution);
-  const Tree* contacts = config.find("contacts");
-  const Tree* first = contacts && !contacts->map.empty() ? &contacts->map[0].value : nullptr;
-  const double force = resisting(step);
-  const bool alone = !contacts || contacts->map.size() == 1;
-  const KnownError error = last && alone
-                               ? known_error(solution.summary(), "force", force)
-                               : KnownError{force, std::numeric_limits<double>::quiet_NaN()};
-  const bool pushed =
-      first && first->find("control") && first->find("control")->kind == Tree::Kind::map;
-  std::string who = shape_words(first ? first->find("rigid") : nullptr);
-  who[0] = 'A';
-  answer.sentence =
-      fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", who,
-                  pushed       ? "pushed by a given force goes"
-                  : force >= 0 ? "pressed"
-                               : "moved",
-                  step.u_ind.norm(), along(step.u_ind), size_of(solution.header().mesh),
-                  last ? "" : ", at its greatest travel", with_error(force, error));
-  if (!alone) answer.sentence += ", the sum over all indenters";
-  if (!contacts) return;
-  for (const auto& [name, contact] : contacts->map) {
-    const Tree* friction = contact.find("friction");
-    answer.facts.push_back(
-        {name, fmt::format("{}, {}", shape_words(contact.find("rigid")),
-                           friction && friction->scalar != "0" ? "friction " + friction->scalar
-                                                               : "without friction")});
-  }
+// The verb of an indentation: a force-controlled indenter, one that is pushed back by the body, or
+// one that adheres or is withdrawn (the force then acts along the travel).
+std::string motion_words(const Tree* contact, double force) {
+  const Tree* control = nullptr;
+  if (contact) control = contact->find("control");
+  if (control && control->kind == Tree::Kind::map) return "under a given force moves";
+  if (force >= 0) return "pressed";
+  return "moved";
 }
 
-// of "x_max moved by 6 mm along x"; histories are told by their config
+// Shape and friction of one indenter.
+std::string contact_words(const Tree& contact) {
+  const Tree* friction = contact.find("friction");
+  std::string text = shape_words(contact.find("rigid")) + ", ";
+  if (friction && friction->scalar != "0") return text + "friction " + friction->scalar;
+  return text + "without friction";
+}
+
+// Describes an indentation. The error of the force is estimated at the last step and for a single
+// indenter, so an error bar is shown only there.
+void describe_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {
+  const auto [step, last] = deepest(solution);
+  const Tree* contacts = config.find("contacts");
+  const Tree* first = nullptr;
+  if (contacts && !contacts->map.empty()) first = &contacts->map[0].value;
+  const Tree* rigid = nullptr;
+  if (first) rigid = first->find("rigid");
+  const double force = resisting(step);
+  const bool alone = !contacts || contacts->map.size() == 1;
+  KnownError error{force, std::numeric_limits<double>::quiet_NaN()};
+  if (last && alone) error = known_error(solution.summary(), "force", force);
+  std::string indenter = shape_words(rigid);
+  indenter[0] = 'A';
+  std::string moment = ", at its greatest travel";
+  if (last) moment = "";
+  answer.sentence = fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
+                                motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
+                                size_of(solution.header().mesh), moment, with_error(force, error));
+  if (!alone) answer.sentence += ", the sum over all indenters";
+  if (!contacts) return;
+  for (const auto& [name, contact] : contacts->map)
+    answer.facts.push_back({name, contact_words(contact)});
+}
+
+// One load in words, as "displacement 6 mm". A load with a history is shown as in the config.
 std::string load_words(const Tree& load) {
   std::string text;
   for (const auto& [kind, value] : load.map) {
     if (kind == "on" || value.kind == Tree::Kind::null) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kind, flat(value));
+    append(text, ", ", kind + " " + flat(value));
     if (kind == "pressure") text += " MPa";
     if (kind == "displacement") text += " mm";
     if (kind == "force") text += " N";
@@ -144,7 +167,16 @@ std::string load_words(const Tree& load) {
   return text;
 }
 
-void tell_loads(Answer& answer, const SolutionReader& solution, const Tree& config) {
+// Sum of the reactions of a node set [N].
+Vec3 total_reaction(const StepRecord& step, const std::vector<int>& nodes) {
+  Vec3 sum = Vec3::Zero();
+  for (const int node : nodes) sum += step.reaction[static_cast<std::size_t>(node)];
+  return sum;
+}
+
+// Describes a body without an indenter: its loads, the reaction on each moved node set, and its
+// largest displacement.
+void describe_loads(Answer& answer, const SolutionReader& solution, const Tree& config) {
   const StepRecord last = solution.step(solution.n_steps() - 1);
   const Mesh& mesh = solution.header().mesh;
   std::string done;
@@ -152,60 +184,33 @@ void tell_loads(Answer& answer, const SolutionReader& solution, const Tree& conf
     for (const Tree& load : loads->list) {
       const Tree* on = load.find("on");
       if (!on) continue;
-      done += fmt::format("{}{}: {}", done.empty() ? "" : "; ", on->scalar, load_words(load));
+      append(done, "; ", on->scalar + ": " + load_words(load));
       const auto set = mesh.node_sets.find(on->scalar);
-      if (!load.find("displacement") || load.find("displacement")->kind == Tree::Kind::null ||
-          set == mesh.node_sets.end())
-        continue;
-      Vec3 sum = Vec3::Zero();
-      for (const int node : set->second) sum += last.reaction[static_cast<std::size_t>(node)];
+      const Tree* displacement = load.find("displacement");
+      if (!displacement || displacement->kind == Tree::Kind::null) continue;
+      if (set == mesh.node_sets.end()) continue;
+      const Vec3 sum = total_reaction(last, set->second);
       answer.facts.push_back({"reaction on " + on->scalar,
                               fmt::format("({:.4g}, {:.4g}, {:.4g}) N", sum[0], sum[1], sum[2])});
     }
   double largest = 0;
   for (const Vec3& u : last.u) largest = std::max(largest, u.norm());
   answer.facts.push_back({"largest displacement", fmt::format("{:.4g} mm", largest)});
-  answer.sentence = fmt::format("A body of {}{}{}", size_of(mesh), done.empty() ? "" : "; ", done);
+  answer.sentence = "A body of " + size_of(mesh);
+  if (!done.empty()) answer.sentence += "; " + done;
 }
 
-}  // namespace
-
-KnownError known_error(const std::vector<Summary>& summary, const std::string& name, double of) {
-  const auto value = [&](const std::string& wanted) {
-    const auto at = std::find_if(summary.begin(), summary.end(),
-                                 [&](const Summary& s) { return s.name == wanted; });
-    return at == summary.end() ? std::numeric_limits<double>::quiet_NaN() : at->value;
-  };
-  // what was found is its limit + cells + increments
-  const double found =
-      value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
-  const double number = std::isnan(found) ? of : found;
-  return {number, 100 * value(name + "_error") / std::abs(number)};
-}
-
-Answer answer_of(const SolutionReader& solution, const std::string& label) {
-  Answer answer;
+// Materials, fibre angles, supports and size of the model.
+void add_model_facts(Answer& answer, const SolutionReader& solution, const Tree& config) {
   const SolutionHeader& header = solution.header();
-  Tree config;
-  try {
-    config = parse_yaml(header.identity.config, "the solution's config");
-  } catch (const Failure&) {  // of a version that wrote it otherwise: what the numbers tell is told
-  }
-  if (solution.n_steps() == 0) return answer;
-  if (header.contact_nodes.empty())
-    tell_loads(answer, solution, config);
-  else
-    tell_contact(answer, solution, config);
-  if (!label.empty()) answer.sentence = label + ": " + answer.sentence;
-  const std::vector<Material> laws = header.laws();
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    std::string of;
-    if (laws.size() > 1 && i < header.mesh.bodies.size()) {
-      of = " of " + header.mesh.bodies[i];
-    }
-    for (const auto& [part, value] : to_tree(laws[i]).map)
+  const std::vector<Material> materials = header.laws();
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    std::string body;
+    if (materials.size() > 1 && i < header.mesh.bodies.size())
+      body = " of " + header.mesh.bodies[i];
+    for (const auto& [part, value] : to_tree(materials[i]).map)
       if (const std::string text = flat(value); !text.empty())
-        answer.facts.push_back({part + of, text});
+        answer.facts.push_back({part + body, text});
   }
   if (const Tree* angles = config.find("fibre_angles"); angles && !angles->list.empty())
     answer.facts.push_back({"fibre angles", flat(*angles) + "°"});
@@ -217,6 +222,41 @@ Answer answer_of(const SolutionReader& solution, const std::string& label) {
   answer.facts.push_back(
       {"cells", fmt::format("{} with {} nodes, {}, {} increments", header.mesh.n_cells(),
                             header.mesh.n_nodes(), header.formulation, solution.n_steps())});
+}
+
+}  // namespace
+
+KnownError known_error(const std::vector<Summary>& summary, const std::string& name,
+                       double fallback) {
+  const auto value = [&](const std::string& wanted) {
+    const auto at = std::ranges::find(summary, wanted, &Summary::name);
+    if (at == summary.end()) return std::numeric_limits<double>::quiet_NaN();
+    return at->value;
+  };
+  // The computed number is the extrapolated limit plus the errors of the mesh and the increments.
+  double number =
+      value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
+  if (std::isnan(number)) number = fallback;
+  return {number, 100 * value(name + "_error") / std::abs(number)};
+}
+
+Answer answer_of(const SolutionReader& solution, const std::string& label) {
+  Answer answer;
+  const SolutionHeader& header = solution.header();
+  Tree config;
+  try {
+    config = parse_yaml(header.identity.config, "the solution's config");
+  } catch (const Failure&) {
+    // Another version wrote the config in a form that this one cannot read. The sentence then
+    // contains only what the results themselves show.
+  }
+  if (solution.n_steps() == 0) return answer;
+  if (header.contact_nodes.empty())
+    describe_loads(answer, solution, config);
+  else
+    describe_contact(answer, solution, config);
+  if (!label.empty()) answer.sentence = label + ": " + answer.sentence;
+  add_model_facts(answer, solution, config);
   return answer;
 }
 

@@ -1,5 +1,9 @@
-// What a reader asks first of a solution: what was done to which body, and what force came of it,
-// with the error that is known of it.
+// The first lines of a report: what was done to which body, and which force resulted, with its
+// error bar.
+//
+// The sentence is composed from the config that the solution file contains and from its last step
+// (or the step of the greatest travel). An error bar is shown only if the solution has an error
+// estimate for that number; see known_error.
 #pragma once
 
 #include <string>
@@ -19,14 +23,16 @@ struct Answer {
   std::vector<Fact> facts;
 };
 
-// Estimated error of a number of the summary in percent of it, as cells and increments make it; NaN
-// where nothing was estimated. `of`: the number, where limit and parts do not tell it.
+// A number of the summary with its estimated discretisation error in percent; NaN without an
+// estimate. The number is the sum of its limit and its errors in the summary; if they are missing,
+// it is `fallback`.
 struct KnownError {
   double value = 0, percent = 0;
 };
-KnownError known_error(const std::vector<Summary>& summary, const std::string& name, double of);
+KnownError known_error(const std::vector<Summary>& summary, const std::string& name,
+                       double fallback);
 
-// label: of the member, "" where there is one alone
+// label: the member of a sweep; empty for a single solution
 Answer answer_of(const SolutionReader& solution, const std::string& label);
 
 }  // namespace langer::report

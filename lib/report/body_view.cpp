@@ -18,8 +18,12 @@ namespace langer::report {
 
 namespace {
 
+// Fibres drawn on the surface; more would hide each other.
 constexpr std::size_t most_glyphs = 2500;
 
+Json unchanged(const Json& j) { return j; }
+
+// A field that the page can colour the body by, with its values at the sent nodes in all states.
 struct ShownField {
   Quantity quantity;
   int family = 0;  // from 0
@@ -28,57 +32,65 @@ struct ShownField {
   std::vector<std::vector<double>> values;  // state, node
 };
 
+// One field for each quantity; a quantity of fibres has one field for each family.
 std::vector<ShownField> fields_of(const std::vector<Quantity>& quantities, const Body& body) {
   std::vector<ShownField> fields;
   for (const Quantity q : quantities) {
     const QuantityLine& line = line_of(q);
     int n = 1;
     if (line.needs.fibres) n = body.n_families();
-    for (int k = 0; k < n; ++k)
-      fields.push_back({q,
-                        k,
-                        n > 1 ? fmt::format("{}_{}", line.word, k + 1) : line.word,
-                        n > 1 ? fmt::format("{} {}", line.label, k + 1) : plain_label(line.label),
-                        line.unit,
-                        {},
-                        {}});
+    for (int k = 0; k < n; ++k) {
+      std::string name = line.word;
+      std::string label = plain_label(line.label);
+      if (n > 1) {
+        name = fmt::format("{}_{}", line.word, k + 1);
+        label = fmt::format("{} {}", line.label, k + 1);
+      }
+      fields.push_back({q, k, name, label, line.unit, {}, {}});
+    }
   }
   return fields;
 }
 
-// what indenters do to the surface; slip and status where anything slips
+// Whether a contact node slips in any step.
+bool has_slip(const SolutionReader& solution) {
+  constexpr int slip = 2;  // code of a slipping node in a solution file
+  for (int i = 0; i < solution.n_steps(); ++i)
+    for (const auto& [name, contact] : solution.step(i).contacts)
+      if (std::ranges::find(contact.status, slip) != contact.status.end()) return true;
+  return false;
+}
+
+// Contact pressure if the solution has indenters; slip and contact status if anything slips.
 std::vector<Quantity> contact_quantities(const SolutionReader& solution,
                                          const ContactStates& contacts) {
   std::vector<Quantity> shown;
   const auto& surfaces = contacts.surfaces();
-  if (std::all_of(surfaces.begin(), surfaces.end(),
-                  [](const auto& named) { return named.second.empty(); }))
-    return shown;
+  bool any_surface = false;
+  for (const auto& [name, facets] : surfaces) any_surface = any_surface || !facets.empty();
+  if (!any_surface) return shown;
   shown.push_back(quantity("contact_pressure"));
-  bool slips = false;
-  for (int i = 0; i < solution.n_steps() && !slips; ++i)
-    for (const auto& [name, contact] : solution.step(i).contacts)
-      slips = slips ||
-              std::find(contact.status.begin(), contact.status.end(), 2) != contact.status.end();
-  if (!slips) return shown;
+  if (!has_slip(solution)) return shown;
   if (contacts.knows_slip()) shown.push_back(quantity("slip"));
   shown.push_back(quantity("contact_status"));
   return shown;
 }
 
-// rows of the table of states: 0 is the unloaded one
+// The states that the page shows, evenly spaced: 0 is the unloaded state, n_steps the last step.
 std::vector<int> rows_shown(int n_steps, int most) {
-  std::vector<int> rows;
   const int n = std::clamp(most, 2, n_steps + 1);
+  if (n == 1) return {0};
+  std::vector<int> rows;
   for (int i = 0; i < n; ++i)
-    rows.push_back(n > 1 ? static_cast<int>(std::lround(double(i) * n_steps / (n - 1))) : 0);
+    rows.push_back(static_cast<int>(std::lround(double(i) * n_steps / (n - 1))));
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
 
-// The nodes that travel: all, or those of the surface.
+// The nodes whose data the page contains: all nodes of the mesh, or only those of the surface.
 struct Chosen {
-  std::vector<int> nodes, place;  // place: of each node of the mesh among them, or -1
+  std::vector<int> nodes;
+  std::vector<int> place;  // index in `nodes` of each node of the mesh, or -1
   Chosen(const Mesh& mesh, const std::vector<std::array<int, 4>>& surface, bool all)
       : place(mesh.X.size(), -1) {
     std::set<int> used;
@@ -91,48 +103,54 @@ struct Chosen {
   }
 };
 
-Json text_of(const std::string& packed) { return {'"' + packed + '"'}; }
-
+// An array as a JSON string in base64, which needs no escapes.
 template <class T>
 Json packed(const std::vector<T>& values) {
-  return text_of(base64(values));
+  return {'"' + base64(values) + '"'};
 }
 
-// Fibres on the facets of the surface, thinned out evenly.
+// Fibres drawn on the surface. The page draws each at the middle of its facet, along
+// F a = sum_k x_k (grad N_k . a) with the eight nodes and weights of its element.
 struct Glyphs {
   std::vector<std::int32_t> facet, cell_nodes;
   std::vector<float> weights;
 };
 
+std::array<int, 4> sorted_nodes(std::array<int, 4> facet) {
+  std::ranges::sort(facet);
+  return facet;
+}
+
+// The unit normal of a facet from its diagonals.
+Vec3 facet_normal(const Mesh& mesh, const std::array<int, 4>& facet) {
+  return (mesh.X[facet[2]] - mesh.X[facet[0]])
+      .cross(mesh.X[facet[3]] - mesh.X[facet[1]])
+      .normalized();
+}
+
+// The fibres on the surface, thinned out evenly. A fibre that is almost normal to its facet is
+// left out: on the screen it would be a point.
 Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surface,
                  const Chosen& chosen) {
   const Mesh mesh = between_nodes(body.mesh());
   const int parts = mesh.n_cells() / body.mesh().n_cells();
   Glyphs glyphs;
   std::map<std::array<int, 4>, int> place;  // sorted nodes -> facet of the surface
-  for (std::size_t f = 0; f < surface.size(); ++f) {
-    auto key = surface[f];
-    std::sort(key.begin(), key.end());
-    place[key] = static_cast<int>(f);
-  }
+  for (std::size_t f = 0; f < surface.size(); ++f)
+    place[sorted_nodes(surface[f])] = static_cast<int>(f);
   const std::size_t every = std::max<std::size_t>(1, surface.size() / most_glyphs);
   std::size_t seen = 0;
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (const auto& local : Hex8::facet) {
       std::array<int, 4> nodes{};
       for (int k = 0; k < 4; ++k) nodes[k] = mesh.cell(e)[local[k]];
-      auto key = nodes;
-      std::sort(key.begin(), key.end());
-      const auto found = place.find(key);
+      const auto found = place.find(sorted_nodes(nodes));
       if (found == place.end() || seen++ % every != 0) continue;
-      const auto& facet = surface[static_cast<std::size_t>(found->second)];
-      const Vec3 normal = (mesh.X[facet[2]] - mesh.X[facet[0]])
-                              .cross(mesh.X[facet[3]] - mesh.X[facet[1]])
-                              .normalized();
+      const Vec3 normal = facet_normal(mesh, surface[static_cast<std::size_t>(found->second)]);
       const Hex8::Gradient dN = Hex8::gradient(Vec3::Zero());
       const Mat3 jacobian = element_nodes(mesh, e).transpose() * dN;  // dX/dxi
       for (const Vec3& a : body.fibres(e / parts)) {
-        if (std::abs(a.dot(normal)) > 0.7) continue;  // seen from its end
+        if (std::abs(a.dot(normal)) > 0.7) continue;
         const Eigen::Matrix<double, 8, 1> w = dN * jacobian.inverse() * a;
         glyphs.facet.push_back(found->second);
         for (int k = 0; k < 8; ++k) {
@@ -144,8 +162,8 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
   return glyphs;
 }
 
-// Each as triangles where it starts, and how far it has moved in each state; those that the
-// solution does not hold by name.
+// Each indenter as triangles at its initial place, and its displacement in each state. Indenters
+// whose shape the solution does not contain are listed by name.
 Json indenters_view(const SolutionReader& solution, const std::vector<double>& t) {
   const SolutionHeader& header = solution.header();
   constexpr int parts = 24;
@@ -171,45 +189,56 @@ Json indenters_view(const SolutionReader& solution, const std::vector<double>& t
     shown.push_back(object({{"name", words(indenter.name)},
                             {"points", packed(points)},
                             {"triangles", packed(triangles)},
-                            {"u", list(moved, [](const Json& j) { return j; })}}));
+                            {"u", list(moved, unchanged)}}));
   }
   for (const std::string& name : indenters_missing(header, indenters))
     missing.push_back(words(name));
-  const auto as_is = [](const Json& j) {
-    return j;
-  };
-  return object({{"shown", list(shown, as_is)}, {"missing", list(missing, as_is)}});
+  return object({{"shown", list(shown, unchanged)}, {"missing", list(missing, unchanged)}});
 }
 
-// What travels within the budget: all nodes with the cells, or those of the surface, and how many
-// states.
+// How much of a body fits into the budget: all nodes with the elements, or only the nodes of the
+// surface, and the number of states.
 struct Extent {
   bool cells;
   int states;
 };
-Extent extent_of(const Mesh& mesh, const Chosen& whole, const Chosen& outside, std::size_t n_facets,
-                 std::size_t n_fields, int wanted, double budget) {
-  constexpr int few = 4;
-  const std::size_t n_corners = between_nodes(mesh).connectivity.size();
-  // bytes in base64: per node and state, per node, per cell and facet
-  const auto size = [&](const Chosen& nodes, int states, bool cells) {
-    const double n = static_cast<double>(nodes.nodes.size());
-    return 4.0 / 3 *
-           (n * states * (6 + 2.0 * static_cast<double>(n_fields)) + 12 * n +
-            16.0 * static_cast<double>(n_facets) + (cells ? 4.0 * n_corners : 0) +
-            (cells ? 68.0 * static_cast<double>(std::min(n_facets, 2 * most_glyphs)) : 0));
-  };
-  const auto fitting = [&](const Chosen& nodes, bool cells) {
+
+// Sizes that the number of bytes of a body depends on.
+struct BodySize {
+  std::size_t n_corners, n_facets, n_fields;
+
+  // Bytes in base64. A state has 6 bytes of displacement and 2 bytes per field at each node; a node
+  // has its position, a facet four node numbers, an element its corners and fibres.
+  double bytes(const Chosen& chosen, int states, bool cells) const {
+    const double n = static_cast<double>(chosen.nodes.size());
+    double sum = n * states * (6 + 2.0 * static_cast<double>(n_fields)) + 12 * n +
+                 16.0 * static_cast<double>(n_facets);
+    if (cells) {
+      sum += 4.0 * n_corners;
+      sum += 68.0 * static_cast<double>(std::min(n_facets, 2 * most_glyphs));
+    }
+    return 4.0 / 3 * sum;
+  }
+
+  // The most states within the budget; 0 if not even two fit.
+  int fitting_states(const Chosen& chosen, bool cells, int wanted, double budget) const {
     int states = wanted;
-    while (states > 2 && size(nodes, states, cells) > budget) --states;
-    return size(nodes, states, cells) > budget ? 0 : states;
-  };
-  const int states = fitting(whole, true);
+    while (states > 2 && bytes(chosen, states, cells) > budget) --states;
+    if (bytes(chosen, states, cells) > budget) return 0;
+    return states;
+  }
+};
+
+// Prefers whole bodies, which a plane can cut open, unless fewer than four states would fit.
+Extent extent_of(const BodySize& size, const Chosen& whole, const Chosen& outside, int wanted,
+                 double budget) {
+  constexpr int few = 4;
+  const int states = size.fitting_states(whole, true, wanted, budget);
   if (states >= std::min(few, wanted)) return {true, states};
-  return {false, std::max(2, fitting(outside, false))};
+  return {false, std::max(2, size.fitting_states(outside, false, wanted, budget))};
 }
 
-// displacements in whole steps of a share of the largest
+// Displacements of each state as 16-bit integers, in units of `step` mm.
 Json moves_view(const std::vector<std::vector<double>>& u, double step) {
   std::vector<Json> moves;
   for (const auto& state : u) {
@@ -217,44 +246,54 @@ Json moves_view(const std::vector<std::vector<double>>& u, double step) {
     for (double v : state) whole_steps.push_back(static_cast<std::int16_t>(std::lround(v / step)));
     moves.push_back(packed(whole_steps));
   }
-  return list(moves, [](const Json& j) { return j; });
+  return list(moves, unchanged);
 }
 
+// The fields as 16-bit integers between their smallest and largest value over all states. A field
+// without a finite value is left out.
 Json fields_view(std::vector<ShownField>& fields) {
   std::vector<Json> shown;
   for (ShownField& f : fields) {
     for (const auto& values : f.values) f.span.add(values);
     if (f.span.empty()) continue;
-    shown.push_back(object(
-        {{"name", words(f.name)},
-         {"label", words(f.label)},
-         {"unit", words(f.unit)},
-         {"low", number(f.span.low)},
-         {"high", number(f.span.high)},
-         {"states", list(f.values, [&](const auto& v) { return packed(quantised(v, f.span)); })}}));
+    const auto quantised_state = [&](const auto& values) {
+      return packed(quantised(values, f.span));
+    };
+    shown.push_back(object({{"name", words(f.name)},
+                            {"label", words(f.label)},
+                            {"unit", words(f.unit)},
+                            {"low", number(f.span.low)},
+                            {"high", number(f.span.high)},
+                            {"states", list(f.values, quantised_state)}}));
   }
-  return list(shown, [](const Json& j) { return j; });
+  return list(shown, unchanged);
 }
 
+// The states that the page shows: path parameter, displacements of the chosen nodes, and what the
+// slider displays.
 struct States {
   std::vector<double> t;
   std::vector<std::vector<double>> u;  // state, 3 node
-  std::vector<Json> told;
+  std::vector<Json> shown;
 };
 
-// of these rows of the table of states; fields: their values are added
+bool needs_contact(const ShownField& f) { return is<OfContact>(line_of(f.quantity)); }
+
+// Evaluates the states `rows`, and adds the values of the fields in each of them.
 States states_of(const SolutionReader& solution, Body& body, const Chosen& chosen,
                  const std::vector<int>& rows, StressAt stress, const ContactStates& contacts,
                  std::vector<ShownField>& fields) {
   States states;
   BranchRows branches(body, solution);
-  const bool touched = std::any_of(fields.begin(), fields.end(), [](const ShownField& f) {
-    return is<OfContact>(line_of(f.quantity));
-  });
+  const bool touched = std::ranges::any_of(fields, needs_contact);
   for (const int row : rows) {
     branches.go_to(row);
-    const StepRecord record = row == 0 ? StepRecord{} : solution.step(row - 1);
-    const StepState state = row == 0 ? unloaded(body.mesh()) : state_of(record);
+    StepRecord record;
+    StepState state = unloaded(body.mesh());
+    if (row > 0) {
+      record = solution.step(row - 1);
+      state = state_of(record);
+    }
     states.t.push_back(state.t);
     auto& here = states.u.emplace_back();
     for (const int node : chosen.nodes)
@@ -262,20 +301,21 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
     const GaussValues gauss = gauss_values(body, state.u);
     for (ShownField& f : fields) f.values.emplace_back();
     std::vector<ContactNode> contact;
-    if (touched) {
-      contact = contacts.nodes(row, record, contacts.knows_slip());
-    } else {
-      contact = std::vector<ContactNode>();
-    }
+    if (touched) contact = contacts.nodes(row, record, contacts.knows_slip());
     for (const int node : chosen.nodes) {
       const VecX values = node_values(body, node, gauss, stress);
       for (ShownField& f : fields) {
-        const OfContact* of = std::get_if<OfContact>(&line_of(f.quantity).value);
-        f.values.back().push_back(of ? (*of)(contact[static_cast<std::size_t>(node)])
-                                     : value_of(f.quantity, values, f.family));
+        const OfContact* evaluate = std::get_if<OfContact>(&line_of(f.quantity).value);
+        double value = 0;
+        if (evaluate) {
+          value = (*evaluate)(contact[static_cast<std::size_t>(node)]);
+        } else {
+          value = value_of(f.quantity, values, f.family);
+        }
+        f.values.back().push_back(value);
       }
     }
-    states.told.push_back(
+    states.shown.push_back(
         object({{"row", number(row)},
                 {"t", number(state.t)},
                 {"u_ind", numbers({state.u_ind[0], state.u_ind[1], state.u_ind[2]})}}));
@@ -299,10 +339,12 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   for (const ShownField& f : fields_of(contact_quantities(solution, contacts), body))
     fields.push_back(f);
 
-  const Chosen whole(mesh, surface, true), outside(mesh, surface, false);
+  const Chosen whole(mesh, surface, true);
+  const Chosen outside(mesh, surface, false);
   const double left = budget - static_cast<double>(indenters_view(solution, {}).text.size());
-  const auto [cells, states] = extent_of(mesh, whole, outside, surface.size(), fields.size(),
-                                         std::min(config.states, solution.n_steps() + 1), left);
+  const BodySize size{between_nodes(mesh).connectivity.size(), surface.size(), fields.size()};
+  const auto [cells, states] =
+      extent_of(size, whole, outside, std::min(config.states, solution.n_steps() + 1), left);
   const Chosen& chosen = cells ? whole : outside;
   const std::vector<int> rows = rows_shown(solution.n_steps(), states);
 
@@ -311,7 +353,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   double largest = 0;
   for (const auto& state : at.u)
     for (double v : state) largest = std::max(largest, std::abs(v));
-  double step = 1;
+  double step = 1;  // [mm], so that the largest displacement is the largest 16-bit integer
   if (largest > 0) step = largest / 32767;
   std::vector<float> X;
   for (const int node : chosen.nodes)
@@ -324,14 +366,13 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
     for (int node : between_nodes(mesh).connectivity) cell_nodes.push_back(chosen.place[node]);
     connectivity = packed(cell_nodes);
   }
-  if (const Glyphs g = cells && body.n_families() > 0 ? glyphs_of(body, surface, chosen) : Glyphs{};
-      !g.facet.empty())
-    glyphs = object({{"facet", packed(g.facet)},
-                     {"nodes", packed(g.cell_nodes)},
-                     {"weights", packed(g.weights)}});
-  const auto as_is = [](const Json& j) {
-    return j;
-  };
+  if (cells && body.n_families() > 0) {
+    const Glyphs g = glyphs_of(body, surface, chosen);
+    if (!g.facet.empty())
+      glyphs = object({{"facet", packed(g.facet)},
+                       {"nodes", packed(g.cell_nodes)},
+                       {"weights", packed(g.weights)}});
+  }
   return object({{"label", words(label)},
                  {"cells", connectivity},
                  {"n_cells", number(mesh.n_cells())},
@@ -339,7 +380,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"n_states", number(solution.n_steps() + 1)},
                  {"X", packed(X)},
                  {"facets", packed(facets)},
-                 {"states", list(at.told, as_is)},
+                 {"states", list(at.shown, unchanged)},
                  {"step", number(step)},
                  {"u", moves_view(at.u, step)},
                  {"fields", fields_view(fields)},

@@ -2,8 +2,8 @@
 // in several states, the facets of its surface, fibres, and the indenters pressed into it.
 //   displacement  int16, one unit is `step` mm     fields  uint16 between their least and largest value over all states
 //   fibre         F a = sum_k x_k (grad N_k . a) at the middle of a cell: eight weights per glyph, so that a fibre can be drawn
-//                 at any state and scale; it stands on the middle of a facet
-//   cells         with all nodes, so that a plane can cut the body open; left out where the budget is short
+//                 at any state and scale; it is drawn at the middle of a facet
+//   cells         with all nodes, so that a plane can cut the body open; left out if the budget is too small
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@
 
 namespace langer::report {
 
-// at most `budget` bytes, unless two states of the surface need more
+// The view has at most `budget` bytes, unless two states of the surface need more. It has fewer
+// states first, then only the surface.
 Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path,
                const ReportConfig& config, double budget);
 

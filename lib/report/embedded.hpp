@@ -1,5 +1,4 @@
-// The page's files as they stand in lib/report/page, and three.js; cmake/embed.cmake writes them
-// into the program.
+// The files of lib/report/page and three.js, which cmake/embed.cmake compiles into the program.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/h5.hpp"
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "report/sources.hpp"
@@ -10,37 +11,47 @@ namespace langer::report {
 
 namespace {
 
-// measured points and the law's line; the x of a test is its stretch, or the amount of shear
+// One chart for each homogeneous test: the measured points and the curve of the fitted material
+// over the stretch, or over the amount of shear.
 void add_tests(ReportPage& page, const Source& source, const FitRecord& fit) {
   for (const FittedTest& test : fit.tests) {
+    std::string x_label = "stretch along x";
+    if (test.kind == "simple_shear") x_label = "amount of shear";
     Chart chart{"fits",
                 fmt::format("{}: {}", source.label, test.name),
-                test.kind == "simple_shear" ? "amount of shear" : "stretch along x",
+                x_label,
                 "-",
                 fmt::format("stress ({})", test.measure),
                 "MPa",
                 {},
                 false};
     chart.series.push_back({"measured, x", test.first, test.stress_x, true});
-    chart.series.push_back({"law, x", test.first, test.model_x, false});
+    chart.series.push_back({"model, x", test.first, test.model_x, false});
     if (!test.stress_z.empty()) {
       chart.series.push_back({"measured, z", test.first, test.stress_z, true});
-      chart.series.push_back({"law, z", test.first, test.model_z, false});
+      chart.series.push_back({"model, z", test.first, test.model_z, false});
     }
     page.charts.push_back(std::move(chart));
   }
 }
 
-// what was measured in scenes; a field over x
+// One chart for each curve that was fitted with simulated scenes. A measured field of displacements
+// is drawn over the coordinate x of its points.
 void add_curves_of_scenes(ReportPage& page, const Source& source, const FitRecord& fit) {
   for (const FittedCurve& curve : fit.curves) {
     std::vector<double> x = curve.x;
     for (std::size_t i = 0; i < curve.places.size(); ++i) x[i] = curve.places[i][0];
     const bool field = !curve.places.empty();
+    std::string x_name = curve.x_name;
+    std::string x_unit = curve.x_unit;
+    if (field) {
+      x_name = "x";
+      x_unit = "mm";
+    }
     Chart chart{"fits",
                 fmt::format("{}: {}", source.label, curve.name),
-                field ? "x" : curve.x_name,
-                field ? "mm" : curve.x_unit,
+                x_name,
+                x_unit,
                 curve.quantity,
                 curve.unit,
                 {},
@@ -51,23 +62,28 @@ void add_curves_of_scenes(ReportPage& page, const Source& source, const FitRecor
   }
 }
 
-// Standard deviation of a test's points about a smooth curve: each beside the cubic through its
-// four neighbours. [MPa]; 0 below five points
+// Standard deviation of a test's points about a smooth curve [MPa]; 0 below five points. Each point
+// is compared with the cubic (Lagrange) polynomial through its four neighbours. If all points have
+// the variance s², the difference has the variance s² (1 + sum of the squared weights).
 double scatter(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
   int n = 0;
   for (std::size_t i = 2; i + 2 < y.size(); ++i) {
-    double through = 0, weights = 1;
+    double polynomial = 0;
+    double variance_factor = 1;
     for (std::size_t j : {i - 2, i - 1, i + 1, i + 2}) {
       double weight = 1;
       for (std::size_t k : {i - 2, i - 1, i + 1, i + 2})
         if (k != j) weight *= (x[i] - x[k]) / (x[j] - x[k]);
-      through += weight * y[j], weights += weight * weight;
+      polynomial += weight * y[j];
+      variance_factor += weight * weight;
     }
-    if (!std::isfinite(through)) continue;  // the same place twice
-    sum += (y[i] - through) * (y[i] - through) / weights, ++n;
+    if (!std::isfinite(polynomial)) continue;  // two points have the same x
+    sum += (y[i] - polynomial) * (y[i] - polynomial) / variance_factor;
+    ++n;
   }
-  return n > 0 ? std::sqrt(sum / n) : 0;
+  if (n == 0) return 0;
+  return std::sqrt(sum / n);
 }
 
 double root_mean_square(const std::vector<double>& a, const std::vector<double>& b) {
@@ -76,46 +92,54 @@ double root_mean_square(const std::vector<double>& a, const std::vector<double>&
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, a.size())));
 }
 
-// Good: the law misses every test by no more than twice what its points scatter, or than 1 % of the
-// largest stress.
-void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
-  constexpr double least = 0.01, enough = 2;
-  std::string missed;
-  for (const FittedTest& test : fit.tests) {
-    double largest = 0;
-    for (const auto* list : {&test.stress_x, &test.stress_z})
-      for (double s : *list) largest = std::max(largest, std::abs(s));
-    for (const auto& [stress, model] :
-         {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
-      const double miss = root_mean_square(*stress, *model), points = scatter(test.first, *stress),
-                   noise = std::max(points, least * largest);
-      if (stress->empty() || !(miss > enough * noise)) continue;
-      missed += fmt::format(
-          "{}{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %",
-          missed.empty() ? "" : "; ", test.name, 100 * miss / largest, 100 * points / largest);
-      break;
-    }
+// A fit is called good if it misses every test by at most this many times the noise of the test.
+constexpr double acceptable_misfit = 2;
+
+// How a test is missed, in words; empty if it is not. The noise of a test is the scatter of its
+// points, but at least 1 % of its largest stress: smooth data would otherwise fail any model.
+std::string misfit_words(const FittedTest& test) {
+  constexpr double least_noise = 0.01;
+  double largest = 0;
+  for (const auto* list : {&test.stress_x, &test.stress_z})
+    for (double s : *list) largest = std::max(largest, std::abs(s));
+  for (const auto& [stress, model] :
+       {std::pair{&test.stress_x, &test.model_x}, {&test.stress_z, &test.model_z}}) {
+    const double misfit = root_mean_square(*stress, *model);
+    const double points = scatter(test.first, *stress);
+    const double noise = std::max(points, least_noise * largest);
+    if (stress->empty() || !(misfit > acceptable_misfit * noise)) continue;
+    return fmt::format("{} by {:.2g} % of its largest stress, its points scatter by {:.2g} %",
+                       test.name, 100 * misfit / largest, 100 * points / largest);
   }
-  for (const FittedCurve& curve : fit.curves)
-    if (const double miss = root_mean_square(curve.measured, curve.model);
-        miss > enough * curve.standard_deviation)
-      missed +=
-          fmt::format("{}{} by {:.2g} times its standard deviation", missed.empty() ? "" : "; ",
-                      curve.name, miss / curve.standard_deviation);
+  return "";
+}
+
+// Compares the misfit of each test with its noise.
+void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
+  std::string missed;
+  for (const FittedTest& test : fit.tests)
+    if (const std::string text = misfit_words(test); !text.empty()) append(missed, "; ", text);
+  for (const FittedCurve& curve : fit.curves) {
+    const double misfit = root_mean_square(curve.measured, curve.model);
+    if (!(misfit > acceptable_misfit * curve.standard_deviation)) continue;
+    append(missed, "; ",
+           fmt::format("{} by {:.2g} times its standard deviation", curve.name,
+                       misfit / curve.standard_deviation));
+  }
   const std::string errors =
       fmt::format("mean error {:.2g} %, at most {:.2g} % of the largest {}; R² = {:.5f}",
                   fit.mean_error_percent, fit.max_error_percent,
                   fit.curves.empty() ? "stress" : "value", fit.r2);
-  if (missed.empty())
-    page.verdicts.push_back(
-        {Level::good, source.label, "the law follows the tests within their scatter: " + errors});
-  else
-    page.verdicts.push_back(
-        {Level::warning, source.label,
-         fmt::format(
-             "the law misses tests by more than their scatter ({}), root mean squares: another law or a "
-             "shorter range may follow them; {}",
-             missed, errors)});
+  if (missed.empty()) {
+    page.verdicts.push_back({Level::good, source.label,
+                             "the material follows the tests within their scatter: " + errors});
+    return;
+  }
+  page.verdicts.push_back(
+      {Level::warning, source.label,
+       fmt::format("the material misses tests by more than their scatter ({}), root mean squares: "
+                   "another material model or a shorter range may follow them; {}",
+                   missed, errors)});
 }
 
 std::vector<std::vector<double>> rows_of(const MatX& m) {
@@ -127,8 +151,8 @@ std::vector<std::vector<double>> rows_of(const MatX& m) {
   return rows;
 }
 
-// What the tests tell of the parameters: each one's profile with the line that ends its interval,
-// and their correlation.
+// How well the tests determine the parameters: the profile of each one (the rise of chi-squared
+// while all others are fitted again) with the limit of its 95 % interval, and the correlations.
 void add_identifiability(ReportPage& page, const Source& source, const FitRecord& fit,
                          const h5::Group& root) {
   constexpr double ends = 3.84;  // chi-square of one degree of freedom at 95 %
@@ -151,8 +175,8 @@ void add_identifiability(ReportPage& page, const Source& source, const FitRecord
   page.matrices.push_back(std::move(matrix));
 }
 
-// where the law is strongly elliptic, over the plane of stretches; twice its stiffness at rest is a
-// medium colour
+// Where the material is strongly elliptic: its minimum acoustic eigenvalue over the plane of two
+// stretches. The colour scale is centred at twice the value of the undeformed material.
 void add_stability(ReportPage& page, const Source& source, const h5::Group& root) {
   if (!root.has("stability/plane")) return;
   const h5::Group stability = root.group("stability");
@@ -177,18 +201,24 @@ void add_stability(ReportPage& page, const Source& source, const h5::Group& root
   page.maps.push_back(std::move(map));
 }
 
+// Whether another message of the fit already covers this parameter: the shear modulus at rest.
+bool is_modulus_at_rest(const FitRecord& fit, const FittedParameter& p) {
+  return fit.at_rest && fit.at_rest->key.ends_with("." + p.name);
+}
+
+// Which parameters the tests do not determine: those on a bound, and those whose standard error is
+// more than half their value.
 void judge_parameters(ReportPage& page, const Source& source, const FitRecord& fit) {
   std::string open, on_bound;
   double worst = 0;
   for (const FittedParameter& p : fit.parameters) {
-    std::string& list = p.value == p.lower || p.value == p.upper ? on_bound : open;
-    if (&list == &open && std::islessequal(p.standard_error, 0.5 * std::abs(p.value))) {
+    if (p.value == p.lower || p.value == p.upper) {
+      if (!is_modulus_at_rest(fit, p)) append(on_bound, ", ", p.name);
+    } else if (std::islessequal(p.standard_error, 0.5 * std::abs(p.value))) {
       worst = std::max(worst, p.standard_error / std::abs(p.value));
-      continue;
+    } else {
+      append(open, ", ", p.name);
     }
-    if (&list == &on_bound && fit.at_rest && fit.at_rest->key.ends_with("." + p.name))
-      continue;  // said below
-    list += (list.empty() ? "" : ", ") + p.name;
   }
   if (!open.empty())
     page.verdicts.push_back(
@@ -197,7 +227,8 @@ void judge_parameters(ReportPage& page, const Source& source, const FitRecord& f
   if (!on_bound.empty())
     page.verdicts.push_back(
         {Level::warning, source.label,
-         fmt::format("the tests push {} onto a bound: they do not tell its value", on_bound)});
+         fmt::format("the fit ends on a bound of {}: the tests do not determine its value",
+                     on_bound)});
   if (fit.at_rest) page.verdicts.push_back({Level::warning, source.label, in_words(*fit.at_rest)});
   if (open.empty() && on_bound.empty() && !fit.at_rest && !fit.parameters.empty())
     page.verdicts.push_back(
@@ -208,6 +239,8 @@ void judge_parameters(ReportPage& page, const Source& source, const FitRecord& f
 
 }  // namespace
 
+// The tables, charts and verdicts of a fitted material. A material that was not fitted adds
+// nothing.
 void add_materials(ReportPage& page, const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const auto fit = read_material(source.path).fit;
@@ -226,18 +259,18 @@ void add_materials(ReportPage& page, const std::vector<Source>& sources) {
     judge_fit(page, source, *fit);
     judge_parameters(page, source, *fit);
     const h5::File file = h5::File::open(source.path);
-    const auto said = [&](const char* group, const char* attribute) {
+    const auto attribute_of = [&](const char* group, const char* attribute) {
       if (!file.root().has(group) || !file.root().group(group).has_attribute(attribute))
         return std::string();
       return file.root().group(group).text_attribute(attribute);
     };
-    if (const std::string verdict = said("stability", "verdict"); !verdict.empty())
-      page.verdicts.push_back(
-          {verdict.find("lost") == std::string::npos && verdict.find("loses") == std::string::npos
-               ? Level::note
-               : Level::warning,
-           source.label, verdict});
-    if (const std::string least = said("identifiability", "words"); !least.empty())
+    if (const std::string verdict = attribute_of("stability", "verdict"); !verdict.empty()) {
+      Level level = Level::note;
+      if (verdict.find("lost") != std::string::npos) level = Level::warning;
+      if (verdict.find("loses") != std::string::npos) level = Level::warning;
+      page.verdicts.push_back({level, source.label, verdict});
+    }
+    if (const std::string least = attribute_of("identifiability", "words"); !least.empty())
       page.verdicts.push_back(
           {Level::note, source.label, "least identifiable combination: " + least});
     add_tests(page, source, *fit);

@@ -6,9 +6,13 @@
 
 namespace langer::report {
 
+// A chart of each index that the file contains, over the strain, with one curve for each parameter.
+// The parameters are in the order of the attribute `order`.
 void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
   struct Matrix {
-    const char *name, *title, *unit;
+    const char* name;  // of a dataset, after its group
+    const char* title;
+    const char* unit;
   };
   static constexpr Matrix matrices[] = {
       {"mu_star_range", "one at a time: effect over the range", "MPa"},
@@ -27,25 +31,16 @@ void add_sensitivities(ReportPage& page, const std::vector<Source>& sources) {
       const std::string path = matrix.name;
       const auto cut = path.find('/');
       std::string folder;
-      if (cut == std::string::npos) {
-        folder = "";
-      } else {
-        folder = path.substr(0, cut);
-      }
+      if (cut != std::string::npos) folder = path.substr(0, cut);
       const std::string name = path.substr(cut + 1);
       if (!folder.empty() && !file.root().has(folder)) continue;
-      const h5::Group group = folder.empty() ? file.root() : file.root().group(folder);
+      h5::Group group = file.root();
+      if (!folder.empty()) group = file.root().group(folder);
       if (!group.has(name)) continue;
       const auto values = group.read<double>(name, {parameters.size(), strain.size()}).values;
-      Chart chart{
-          "sensitivity",
-          sources.size() > 1 ? fmt::format("{}: {}", source.label, matrix.title) : matrix.title,
-          "strain",
-          "-",
-          matrix.title,
-          matrix.unit,
-          {},
-          false};
+      std::string title = matrix.title;
+      if (sources.size() > 1) title = fmt::format("{}: {}", source.label, matrix.title);
+      Chart chart{"sensitivity", title, "strain", "-", matrix.title, matrix.unit, {}, false};
       for (std::size_t p = 0; p < parameters.size(); ++p) {
         const auto row = values.begin() + static_cast<std::ptrdiff_t>(p * strain.size());
         chart.series.push_back({parameters[p],

@@ -12,16 +12,20 @@ namespace langer::report {
 
 namespace {
 
+bool is_finite(double v) { return std::isfinite(v); }
+
+// One axis of a sweep with its value at each member: numbers, or words.
 struct Axis {
   std::string name, unit;
   std::vector<double> numbers;
-  std::vector<std::string> words;  // where they are no numbers
+  std::vector<std::string> words;  // empty if the values are numbers
   Cell at(std::size_t i) const {
     if (words.empty()) return Cell(numbers[i]);
     return Cell(words[i]);
   }
 };
 
+// Words are stored as indices into the attribute "words".
 Axis read_axis(const h5::Group& group, const std::string& name) {
   Axis axis{name, group.unit(name), {}, {}};
   const std::string all = group.annotation(name, "words");
@@ -40,16 +44,20 @@ Axis read_axis(const h5::Group& group, const std::string& name) {
   return axis;
 }
 
-// u_y_A_half: A; the last part that is one capital letter, with what stands around it
+// Whether a name has a place, which is a part of one capital letter: A in u_y_A_half. `around` is
+// then the name with the place replaced by an asterisk.
 bool at_place(const std::string& name, char place, std::string& around) {
-  for (std::size_t i = name.size(); i-- > 1;)
-    if (name[i] == place && name[i - 1] == '_' && (i + 1 == name.size() || name[i + 1] == '_')) {
-      around = name.substr(0, i) + '*' + name.substr(i + 1);
-      return true;
-    }
+  for (std::size_t i = name.size(); i-- > 1;) {
+    const bool begins = name[i] == place && name[i - 1] == '_';
+    const bool ends = i + 1 == name.size() || name[i + 1] == '_';
+    if (!begins || !ends) continue;
+    around = name.substr(0, i) + '*' + name.substr(i + 1);
+    return true;
+  }
   return false;
 }
 
+// Columns of one family differ in their place only.
 std::string family(const std::string& name) {
   std::string around;
   for (char place = 'A'; place <= 'Z'; ++place)
@@ -57,50 +65,63 @@ std::string family(const std::string& name) {
   return name;
 }
 
-// columns of one family in one picture, with what the symmetry of the scene asks of them
+// The title of a family: u_y_*_half without its place, in words.
+std::string family_title(std::string name) {
+  std::erase(name, '*');
+  while (name.find("__") != std::string::npos) name.replace(name.find("__"), 2, "_");
+  if (!name.empty() && name.back() == '_') name.pop_back();
+  return in_words(name);
+}
+
+// Residuals of the symmetries of a square scene: mirror images of the fibre angle, and the quarter
+// turn that carries place A to B and C to D (report_symmetry.hpp).
+void add_residuals(Polar& polar) {
+  for (const Series& a : polar.series) {
+    if (const auto r = mirror_residual(a.name, polar.angle, a.y)) polar.residuals.push_back(*r);
+    std::string around;
+    char partner = 0;
+    if (at_place(a.name, 'C', around)) partner = 'D';
+    if (at_place(a.name, 'A', around)) partner = 'B';
+    if (partner == 0) continue;
+    for (const Series& b : polar.series) {
+      std::string other;
+      if (!at_place(b.name, partner, other)) continue;
+      if (const auto r = swap_residual(a.name, b.name, polar.angle, a.y, b.y))
+        polar.residuals.push_back(*r);
+    }
+  }
+}
+
+// A sweep over an angle: one polar diagram for each family of columns.
 void add_polars(ReportPage& page, const Axis& axis, const std::vector<Series>& columns,
                 const std::vector<std::string>& units) {
   std::vector<std::string> done;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const std::string of = family(columns[c].name);
-    if (std::find(done.begin(), done.end(), of + units[c]) != done.end()) continue;
-    done.push_back(of + units[c]);
-    Polar polar{of, axis.name, units[c], axis.numbers, {}, {}};
-    std::erase(polar.title, '*');
-    while (polar.title.find("__") != std::string::npos)
-      polar.title.replace(polar.title.find("__"), 2, "_");
-    if (!polar.title.empty() && polar.title.back() == '_') polar.title.pop_back();
-    polar.title = in_words(polar.title);
+    const std::string name = family(columns[c].name);
+    if (std::ranges::find(done, name + units[c]) != done.end()) continue;
+    done.push_back(name + units[c]);
+    Polar polar{family_title(name), axis.name, units[c], axis.numbers, {}, {}};
     for (std::size_t d = c; d < columns.size(); ++d)
-      if (family(columns[d].name) == of && units[d] == units[c]) polar.series.push_back(columns[d]);
-    for (std::size_t i = 0; i < polar.series.size(); ++i) {
-      const Series& a = polar.series[i];
-      if (const auto r = mirror_residual(a.name, axis.numbers, a.y)) polar.residuals.push_back(*r);
-      std::string around;
-      if (!at_place(a.name, 'A', around) && !at_place(a.name, 'C', around)) continue;
-      for (const Series& b : polar.series) {
-        std::string other;
-        if (!at_place(b.name, at_place(a.name, 'A', around) ? 'B' : 'D', other)) continue;
-        if (const auto r = swap_residual(a.name, b.name, axis.numbers, a.y, b.y))
-          polar.residuals.push_back(*r);
-      }
-    }
+      if (family(columns[d].name) == name && units[d] == units[c])
+        polar.series.push_back(columns[d]);
+    add_residuals(polar);
     page.polars.push_back(std::move(polar));
   }
 }
 
-// what a fit leaves open in each quantity, and in curves
+// The spread of results that the covariance of a fitted material causes: mean, standard deviation
+// and interval of each quantity, and bands of curves.
 void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
   if (!root.has("spread")) return;
   const h5::Group spread = root.group("spread");
-  ReportTable table{"What the parameters leave open: " + source.label,
+  ReportTable table{"Uncertainty of the results from the parameters: " + source.label,
                     {{"quantity", "-"},
                      {"unit", "-"},
                      {"mean", "-"},
                      {"standard deviation", "-"},
                      {"lower 95 %", "-"},
                      {"upper 95 %", "-"},
-                     {"parameter that matters most", "-"},
+                     {"most important parameter", "-"},
                      {"standard deviation if it were known", "-"}},
                     {}};
   for (const std::string& name : spread.groups()) {
@@ -111,18 +132,18 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
     const std::vector<double> without = one.read<double>("without", {h5::any}).values;
     std::istringstream order(one.text_attribute("order"));
     std::string most;
-    order >> most;  // the one that would help most stands first
+    order >> most;  // the parameter whose knowledge would help most is the first one
     double left = std::nan("");
     if (!without.empty()) left = without[0];
     table.rows.push_back(
         {name, one.unit("mean"), mean, deviation, interval.at(0), interval.at(1), most, left});
-    if (std::isfinite(deviation) && mean != 0 && !most.empty())
-      page.verdicts.push_back(
-          {Level::note, source.label,
-           fmt::format(
-               "{} {:.4g} {} ± {:.2g} % by what the fit leaves open of the parameters; {:.2g} % if {} were known",
-               name, mean, one.unit("mean"), 100 * deviation / std::abs(mean),
-               100 * left / std::abs(mean), most)});
+    if (!std::isfinite(deviation) || mean == 0 || most.empty()) continue;
+    page.verdicts.push_back(
+        {Level::note, source.label,
+         fmt::format("{} {:.4g} {} ± {:.2g} % from the uncertainty of the fitted parameters; "
+                     "{:.2g} % if {} were known",
+                     name, mean, one.unit("mean"), 100 * deviation / std::abs(mean),
+                     100 * left / std::abs(mean), most)});
   }
   page.tables.push_back(std::move(table));
   const h5::Group bands = root.group("bands");
@@ -146,8 +167,36 @@ void add_spread(ReportPage& page, const Source& source, const h5::Group& root) {
   }
 }
 
+// A symmetry of the scene that the results miss by more than 2 %.
+void judge_symmetry(ReportPage& page, const Source& source) {
+  for (const Polar& polar : page.polars)
+    for (const SymmetryResidual& r : polar.residuals) {
+      if (r.value <= 0.02) continue;
+      page.verdicts.push_back(
+          {Level::warning, source.label,
+           fmt::format("{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks "
+                       "that symmetry",
+                       r.says, 100 * r.value)});
+    }
+}
+
+// One chart for each column over a numerical axis.
+void add_sweep_charts(ReportPage& page, const Axis& axis, const std::vector<Series>& columns,
+                      const std::vector<std::string>& units) {
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    page.charts.push_back({"sweep",
+                           in_words(columns[c].name),
+                           axis.name,
+                           axis.unit,
+                           in_words(columns[c].name),
+                           units[c],
+                           {columns[c]},
+                           false});
+}
+
 }  // namespace
 
+// The table of a sweep. With one axis of numbers also charts, or polar diagrams if it is an angle.
 void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     const h5::File file = h5::File::open(source.path);
@@ -159,8 +208,10 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       axes.push_back(read_axis(axis_group, name));
     std::istringstream members(file.root().read_text("members"));
     ReportTable table{"Sweep: " + source.label, {}, {}};
-    for (std::string member; std::getline(members, member);)
-      table.rows.push_back(axes.empty() ? std::vector<Cell>{member} : std::vector<Cell>{});
+    for (std::string member; std::getline(members, member);) {
+      table.rows.emplace_back();
+      if (axes.empty()) table.rows.back().push_back(member);
+    }
     const std::size_t n = table.rows.size();
     if (axes.empty()) table.columns.push_back({"member", "-"});
     for (const Axis& axis : axes) {
@@ -169,9 +220,9 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       table.columns.push_back({axis.name, axis.unit});
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(axis.at(i));
     }
-    const Axis* angle =
-        axes.size() == 1 && axes[0].unit == "deg" && axes[0].words.empty() ? &axes[0] : nullptr;
-    const Axis* along = axes.size() == 1 && axes[0].words.empty() && n > 1 ? &axes[0] : nullptr;
+    const bool numeric = axes.size() == 1 && axes[0].words.empty();
+    const bool is_curve = numeric && n > 1;
+    const bool is_angle = numeric && n > 2 && axes[0].unit == "deg";
     std::vector<Series> columns;
     std::vector<std::string> units;
     for (const std::string& name : values.datasets()) {
@@ -179,36 +230,19 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
       const auto column = values.read<double>(name, {n}).values;
       table.columns.push_back({name, values.unit(name)});
       for (std::size_t i = 0; i < n; ++i) table.rows[i].push_back(column[i]);
-      const bool whole =
-          std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); });
-      if (along && whole) {
-        columns.push_back({name, along->numbers, column, false});
-        units.push_back(values.unit(name));
-      }
+      if (!is_curve || !std::ranges::all_of(column, is_finite)) continue;
+      columns.push_back({name, axes[0].numbers, column, false});
+      units.push_back(values.unit(name));
     }
     page.tables.push_back(std::move(table));
     add_spread(page, source, file.root());
-    if (angle && n > 2)
-      add_polars(page, *angle, columns, units);
-    else if (along && axes[0].name != "sample" &&
-             !file.root().has("spread"))  // samples of a design have no order
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        page.charts.push_back({"sweep",
-                               in_words(columns[c].name),
-                               along->name,
-                               along->unit,
-                               in_words(columns[c].name),
-                               units[c],
-                               {columns[c]},
-                               false});
-    for (const Polar& polar : page.polars)
-      for (const SymmetryResidual& r : polar.residuals)
-        if (r.value > 0.02)
-          page.verdicts.push_back(
-              {Level::warning, source.label,
-               fmt::format(
-                   "{} fails by {:.2g} % of the largest value: the mesh, or the scene, lacks that symmetry",
-                   r.says, 100 * r.value)});
+    // The members of a design or of a sample of parameters have no order, so they are no curve.
+    const bool ordered = is_curve && axes[0].name != "sample" && !file.root().has("spread");
+    if (is_angle)
+      add_polars(page, axes[0], columns, units);
+    else if (ordered)
+      add_sweep_charts(page, axes[0], columns, units);
+    judge_symmetry(page, source);
   }
 }
 

@@ -1,5 +1,7 @@
-// Text of JSON for a page's <script>: nothing in it can end the script, numbers that are not finite
-// become null.
+// Text of JSON for the <script> of a page. Nothing in it can end the script, and numbers that are
+// not finite become null.
+//
+//   object({{"name", words("force")}, {"y", numbers({1, 2})}}).text   is {"name":"force","y":[1,2]}
 #pragma once
 
 #include <cmath>
@@ -18,12 +20,15 @@ struct Json {
   std::string text = "null";
 };
 
-inline Json number(double x) { return {std::isfinite(x) ? fmt::format("{:.9g}", x) : "null"}; }
+inline Json number(double x) {
+  if (!std::isfinite(x)) return {"null"};
+  return {fmt::format("{:.9g}", x)};
+}
 
-// "</script" and "<!--" mean something to HTML even inside of a string
+// A string. HTML interprets "</script" and "<!--" even inside of a string, so "<" is escaped.
 inline Json words(const std::string& s) { return {quoted(s, "<")}; }
 
-// each item of a range by a function that makes it a Json
+// A list: `each` makes a Json from an item.
 Json list(const auto& range, auto&& each) {
   std::string text;
   for (const auto& item : range) append(text, ",", each(item).text);

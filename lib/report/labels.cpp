@@ -9,13 +9,15 @@ namespace langer::report {
 
 std::string plain_label(const char* label) {
   std::string s = label;
-  std::erase_if(s, [](char c) { return c == '{' || c == '}'; });
+  std::erase(s, '{');
+  std::erase(s, '}');
   for (const char* greek : {"σ", "ε"})
     if (const auto at = s.find(greek + std::string("_")); at != s.npos)
       s.erase(at + std::string_view(greek).size(), 1);
   return s;
 }
 
+// The quantity is the longest known word that the name begins with: sigma_1 before sigma.
 std::string in_words(const std::string& column) {
   const QuantityLine* best = nullptr;
   std::size_t length = 0;
@@ -30,13 +32,14 @@ std::string in_words(const std::string& column) {
   }
   std::string rest = column.substr(length);
   if (best && length == 1 && !rest.empty()) {
-    // t_half is no path parameter
+    // A single letter is a quantity only without a suffix: t_half is not the path parameter t.
     best = nullptr;
     rest = column;
   }
   std::replace(rest.begin(), rest.end(), '_', ' ');
   if (!best) return rest;
-  return plain_label(best->label) + (rest.empty() ? "" : "," + rest);
+  if (!rest.empty()) rest = "," + rest;
+  return plain_label(best->label) + rest;
 }
 
 }  // namespace langer::report

@@ -1,5 +1,5 @@
-// Arrays as they travel in a page: little-endian integers in base64. A quantity takes two bytes per
-// value, so that what a page shows is right to 1/65535 of its range.
+// Arrays inside of a page: little-endian integers in base64 (RFC 4648). A field has two bytes per
+// value, so the page shows it to 1/65535 of its range.
 #pragma once
 
 #include <cmath>
@@ -19,11 +19,16 @@ inline std::string base64(const void* data, std::size_t n) {
   std::string text;
   text.reserve((n + 2) / 3 * 4);
   for (std::size_t i = 0; i < n; i += 3) {
-    const unsigned b =
-        bytes[i] << 16 | (i + 1 < n ? bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
+    // Three bytes are four digits of 6 bits; "=" fills up the last group.
+    const bool second = i + 1 < n;
+    const bool third = i + 2 < n;
+    unsigned b = bytes[i] << 16;
+    if (second) b |= bytes[i + 1] << 8;
+    if (third) b |= bytes[i + 2];
     text += digits[b >> 18];
     text += digits[b >> 12 & 63];
-    text += i + 1 < n ? digits[b >> 6 & 63] : '=', text += i + 2 < n ? digits[b & 63] : '=';
+    text += second ? digits[b >> 6 & 63] : '=';
+    text += third ? digits[b & 63] : '=';
   }
   return text;
 }
@@ -33,7 +38,7 @@ std::string base64(const std::vector<T>& values) {
   return base64(values.data(), values.size() * sizeof(T));
 }
 
-// Least and largest finite value of a field over all its states.
+// Smallest and largest finite value of a field over all its states.
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void add(std::span<const double> values) {
@@ -46,14 +51,16 @@ struct Span {
   bool empty() const { return !(low <= high); }
 };
 
-// 0 ... 65534 from low to high; 65535 is not a number
+// Values as integers from 0 (low) to 65534 (high). 65535 represents a value that is not finite.
 inline std::vector<std::uint16_t> quantised(std::span<const double> values, const Span& span) {
   double per = 0;
   if (span.high > span.low) per = 65534 / (span.high - span.low);
   std::vector<std::uint16_t> packed;
-  for (double v : values)
-    packed.push_back(std::isfinite(v) ? static_cast<std::uint16_t>((v - span.low) * per + 0.5)
-                                      : 65535);
+  for (double v : values) {
+    std::uint16_t level = 65535;
+    if (std::isfinite(v)) level = static_cast<std::uint16_t>((v - span.low) * per + 0.5);
+    packed.push_back(level);
+  }
   return packed;
 }
 

@@ -14,12 +14,19 @@ const char* level_word(Level level) {
   return "warning";
 }
 
+Json boolean(bool b) {
+  if (b) return {"true"};
+  return {"false"};
+}
+
+// The functions below write the structures of page.hpp under the names that lib/report/page/*.js
+// reads.
 Json series(const Series& s) {
   return object({{"name", words(s.name)},
                  {"x", numbers(s.x)},
                  {"y", numbers(s.y)},
                  {"error", numbers(s.error)},
-                 {"points", {s.points ? "true" : "false"}}});
+                 {"points", boolean(s.points)}});
 }
 
 Json answer(const Answer& a) {
@@ -47,6 +54,9 @@ Json plane_map(const PlaneMap& m) {
 }
 
 Json chart(const Chart& c) {
+  const auto mark = [](const Chart::Mark& m) {
+    return object({{"name", words(m.name)}, {"y", number(m.y)}});
+  };
   return object({{"group", words(c.group)},
                  {"title", words(c.title)},
                  {"xLabel", words(c.x_label)},
@@ -54,11 +64,8 @@ Json chart(const Chart& c) {
                  {"yLabel", words(c.y_label)},
                  {"yUnit", words(c.y_unit)},
                  {"series", list(c.series, series)},
-                 {"marks", list(c.marks,
-                                [](const Chart::Mark& m) {
-                                  return object({{"name", words(m.name)}, {"y", number(m.y)}});
-                                })},
-                 {"ordered", {c.ordered ? "true" : "false"}}});
+                 {"marks", list(c.marks, mark)},
+                 {"ordered", boolean(c.ordered)}});
 }
 
 Json polar(const Polar& p) {
@@ -84,12 +91,18 @@ Json data_of(const ReportPage& page) {
       return object({{"name", words(c.name)}, {"unit", words(c.unit)}});
     };
     const auto cell = [](const Cell& c) {
-      return std::holds_alternative<double>(c) ? number(std::get<double>(c))
-                                               : words(std::get<std::string>(c));
+      if (std::holds_alternative<double>(c)) return number(std::get<double>(c));
+      return words(std::get<std::string>(c));
+    };
+    const auto row = [&](const std::vector<Cell>& cells) {
+      return list(cells, cell);
     };
     return object({{"title", words(t.title)},
                    {"columns", list(t.columns, column)},
-                   {"rows", list(t.rows, [&](const auto& row) { return list(row, cell); })}});
+                   {"rows", list(t.rows, row)}});
+  };
+  const auto unchanged = [](const Json& j) {
+    return j;
   };
   const auto origin = [](const FileOrigin& o) {
     return object({{"label", words(o.label)},
@@ -113,7 +126,7 @@ Json data_of(const ReportPage& page) {
                  {"charts", list(page.charts, chart)},
                  {"polars", list(page.polars, polar)},
                  {"tables", list(page.tables, table)},
-                 {"bodies", list(page.bodies, [](const Json& j) { return j; })},
+                 {"bodies", list(page.bodies, unchanged)},
                  {"origins", list(page.origins, origin)}});
 }
 
@@ -127,20 +140,23 @@ std::size_t bytes_without_data() {
          charts_js.size() + tables_js.size() + body_js.size() + main_js.size();
 }
 
+// Fills the placeholders {{name}} of index.html. three.js is included only if the page shows a
+// body, because it is most of the page's size.
 std::string html(const ReportPage& page) {
   using namespace embedded;
   const std::string data = data_of(page).text;
   const std::string title = xml_text(page.title);
   const bool view = has_three() && !page.bodies.empty();
-  const std::pair<std::string_view, std::string_view> parts[] = {{"title", title},
-                                                                 {"style", style_css},
-                                                                 {"three", view ? three_js : ""},
-                                                                 {"orbit", view ? orbit_js : ""},
-                                                                 {"data", data},
-                                                                 {"charts", charts_js},
-                                                                 {"tables", tables_js},
-                                                                 {"body", body_js},
-                                                                 {"main", main_js}};
+  std::string_view three;
+  std::string_view orbit;
+  if (view) {
+    three = three_js;
+    orbit = orbit_js;
+  }
+  const std::pair<std::string_view, std::string_view> parts[] = {
+      {"title", title},      {"style", style_css}, {"three", three},
+      {"orbit", orbit},      {"data", data},       {"charts", charts_js},
+      {"tables", tables_js}, {"body", body_js},    {"main", main_js}};
   std::string text;
   std::string_view rest = index_html;
   for (;;) {

@@ -1,8 +1,14 @@
-// A report as values, and as one HTML file that needs nothing beside it: styles, scripts, three.js
-// and the data are inside.
-//   answers   what was done and what came of it  verdicts  whether to believe it       charts  curves with hover values
-//   polars    a sweep over an angle              matrices  correlations                maps    values over a plane
-//   tables    numbers                            bodies    deformed bodies to look at  origins who made which file from what
+// A report as values, and as one HTML file that needs no other file: styles, scripts, three.js and
+// the data are inside, so it opens offline and can be sent by mail.
+//   answers   what was done, and the resulting force
+//   verdicts  whether the results can be trusted: equilibrium, stability, contact, errors
+//   charts    curves with values under the pointer
+//   polars    results over an angle
+//   matrices  correlations
+//   maps      values over a plane
+//   tables    numbers
+//   bodies    deformed bodies in 3D
+//   origins   which program made which file from which inputs
 #pragma once
 
 #include <string>
@@ -19,13 +25,13 @@ enum class Level { good, note, warning };
 
 struct Verdict {
   Level level = Level::note;
-  std::string of, text;  // of: the file or member it is said of
+  std::string of, text;  // of: the file or member that it concerns
 };
 
 struct Series {
   std::string name;
   std::vector<double> x, y;
-  bool points = false;             // measured: points in place of a line
+  bool points = false;             // measured values are drawn as points, not as a line
   std::vector<double> error = {};  // half width of a band about the line; empty: none
 };
 
@@ -73,7 +79,7 @@ struct Polar {
 
 struct FileOrigin {
   std::string label, stage, made, host, version, libraries, command, content, config;
-  double wall = 0, cpu = 0;  // [s]; NaN where the file does not tell
+  double wall = 0, cpu = 0;  // [s]; NaN if the file does not contain them
 };
 
 struct ReportPage {

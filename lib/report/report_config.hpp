@@ -21,28 +21,35 @@ struct ReportConfig {
   std::string accuracy = "3%";
   static void fields(auto& v) {
     v(&ReportConfig::title, "title", unit::none,
-      "above the page; by default the folders that the files lie in");
+      "heading of the page; by default the names of the files' folders");
     v(&ReportConfig::shown, "fields", unit::none,
-      "what colours the deformed body, beside its displacement; quantities of points");
+      "colours of the deformed body, in addition to its displacement; quantities of points");
     v(&ReportConfig::stress, "stress", unit::none, "how values of Gauss points come to nodes");
     v(&ReportConfig::states, "states", unit::none,
-      "states of each solution that the body can be seen in, at most", at_least(2));
+      "largest number of states of each solution in which the body is shown", at_least(2));
     v(&ReportConfig::megabytes, "megabytes", unit::none,
-      "size of the page, at most; where it is short bodies have fewer states, then only their surface",
+      "largest size of the page; if it is too small, bodies have fewer states, then only their "
+      "surface",
       at_least(1.2));
     v(&ReportConfig::accuracy, "accuracy", unit::none,
-      "error that a result may have, such as 3%: only one whose estimated error is below is called good");
+      "acceptable error of a result, such as 3%: the report calls a result good only if its "
+      "estimated error is below");
   }
+  // What single keys cannot check: the form of the percentage, and that each quantity has values at
+  // points. Displacements have none, and are always on the page.
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> all;
     if (!percent_of(accuracy))
       all.push_back(
           {"accuracy", "found \"" + accuracy + "\"", "a percentage above 0, such as 3%", ""});
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      if (!is<OfPoint>(line_of(shown[i])))
-        all.push_back({"fields[" + std::to_string(i) + "]", line_of(shown[i]).word,
-                       "a quantity of points, as von_mises or J",
-                       is<OfNodes>(line_of(shown[i])) ? "displacements are always there" : ""});
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const QuantityLine& line = line_of(shown[i]);
+      if (is<OfPoint>(line)) continue;
+      std::string hint;
+      if (is<OfNodes>(line)) hint = "displacements are always shown";
+      all.push_back({"fields[" + std::to_string(i) + "]", line.word,
+                     "a quantity of points, as von_mises or J", hint});
+    }
     return all;
   }
 };

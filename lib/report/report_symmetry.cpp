@@ -9,27 +9,27 @@ namespace langer::report {
 
 namespace {
 
+// Fibre directions are equal modulo 180 degrees.
 bool same_direction(double a, double b) { return std::abs(std::remainder(a - b, 180)) < 1e-9; }
 
-// a(α) against b(partner - α)
+// Compares a(α) with b(partner − α) for all pairs of angles. If a and b are the same column, each
+// pair is compared once (both_ways = false).
 std::optional<SymmetryResidual> compared(std::string says, const std::vector<double>& angle,
                                          const std::vector<double>& a, const std::vector<double>& b,
                                          double partner, bool both_ways) {
   SymmetryResidual residual{std::move(says), 0, 0};
-  double largest = 0, scale = 0;
+  double largest = 0;
+  double scale = 0;
   for (std::size_t i = 0; i < angle.size(); ++i)
-    for (std::size_t j = both_ways ? 0 : i + 1; j < angle.size(); ++j) {
+    for (std::size_t j = 0; j < angle.size(); ++j) {
+      if (!both_ways && j <= i) continue;
       if (!same_direction(angle[i], partner - angle[j])) continue;
       largest = std::max(largest, std::abs(a[i] - b[j]));
       scale = std::max({scale, std::abs(a[i]), std::abs(b[j])});
       ++residual.pairs;
     }
   if (residual.pairs == 0) return {};
-  if (scale > 0) {
-    residual.value = largest / scale;
-  } else {
-    residual.value = 0;
-  }
+  if (scale > 0) residual.value = largest / scale;
   return residual;
 }
 

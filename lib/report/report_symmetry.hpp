@@ -1,5 +1,4 @@
-// What a sweep over the fibre angle must fulfil by the symmetry of a scene, and by how much it does
-// not.
+// Symmetries of a sweep over the fibre angle, and how far the results are from them.
 //   mirror   a square body under a sphere in its middle: f(α) = f(180 - α)
 //   swap     a quarter turn carries A to B: f_A(α) = f_B(90 - α)
 // Angles count modulo 180 degrees. A residual is the largest difference over the largest |f| of the
@@ -18,8 +17,8 @@ struct SymmetryResidual {
   double value = 0;  // -
 };
 
-// nothing where no two angles of the sweep are partners (an angle that is its own partner compares
-// nothing)
+// Empty if no two angles of the sweep are partners. An angle that is its own partner does not
+// count.
 std::optional<SymmetryResidual> mirror_residual(const std::string& name,
                                                 const std::vector<double>& angle,
                                                 const std::vector<double>& f);

@@ -13,13 +13,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Whether a text is a number as a whole; x is then its value.
 bool is_number(const std::string& s, double& x) {
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   return !s.empty() && error == std::errc{} && end == s.data() + s.size();
 }
 
-// alpha_030: alpha = 30
-std::string in_words(const std::string& folder, Source& source) {
+// The label of a sweep's folder: alpha_030 is "alpha = 30", law_yeoh is "law: yeoh".
+std::string folder_words(const std::string& folder, Source& source) {
   const auto cut = folder.rfind('_');
   if (cut == std::string::npos || cut == 0) return folder;
   std::string value = folder.substr(cut + 1);
@@ -33,6 +34,7 @@ std::string in_words(const std::string& folder, Source& source) {
   return fmt::format("{}: {}", folder.substr(0, first), folder.substr(first + 1));
 }
 
+// All folders of a path, from the root.
 std::vector<std::string> folders_of(const std::string& path) {
   std::vector<std::string> parts;
   for (const fs::path& part : fs::absolute(path).lexically_normal().parent_path())
@@ -40,21 +42,40 @@ std::vector<std::string> folders_of(const std::string& path) {
   return parts;
 }
 
+// Whether all paths have the same folder at a place, counted from the front or from the back.
+// `front` folders from the front are already known to be shared.
+bool all_share(const std::vector<std::vector<std::string>>& paths, std::size_t place,
+               bool from_front, std::size_t front) {
+  const auto folder_at = [&](const std::vector<std::string>& folders) -> const std::string* {
+    if (place + front >= folders.size()) return nullptr;
+    if (from_front) return &folders[place];
+    return &folders[folders.size() - 1 - place];
+  };
+  for (const auto& folders : paths) {
+    const std::string* folder = folder_at(folders);
+    if (!folder || *folder != *folder_at(paths[0])) return false;
+  }
+  return true;
+}
+
+// A quantity of a summary; NaN if the file does not have it.
+double summary_value(const std::vector<Summary>& summary, const std::string& name) {
+  const auto found = std::ranges::find(summary, name, &Summary::name);
+  if (found == summary.end()) return std::numeric_limits<double>::quiet_NaN();
+  return found->value;
+}
+
 }  // namespace
 
 std::vector<Source> labelled(const std::vector<std::string>& paths) {
   std::vector<std::vector<std::string>> folders;
   for (const std::string& path : paths) folders.push_back(folders_of(path));
-  std::size_t front = 0, back = 0;  // folders that all share
-  const auto all = [&](auto&& part) {
-    return std::all_of(folders.begin(), folders.end(),
-                       [&](const auto& f) { return part(f) && *part(f) == *part(folders[0]); });
-  };
+  // Number of folders at the beginning and at the end that all paths share.
+  std::size_t front = 0;
+  std::size_t back = 0;
   if (paths.size() > 1) {
-    while (all([&](const auto& f) { return front < f.size() ? &f[front] : nullptr; })) ++front;
-    while (all(
-        [&](const auto& f) { return back + front < f.size() ? &f[f.size() - 1 - back] : nullptr; }))
-      ++back;
+    while (all_share(folders, front, true, 0)) ++front;
+    while (all_share(folders, back, false, front)) ++back;
   }
   std::vector<Source> sources;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -67,8 +88,10 @@ std::vector<Source> labelled(const std::vector<std::string>& paths) {
         source.label = f.back();
       }
     } else
-      for (std::size_t k = front; k + back < f.size(); ++k)
-        source.label += (k > front ? ", " : "") + in_words(f[k], source);
+      for (std::size_t k = front; k + back < f.size(); ++k) {
+        if (k > front) source.label += ", ";
+        source.label += folder_words(f[k], source);
+      }
     if (source.label.empty())
       source.label = fs::path(paths[i]).stem().string();  // several files in one folder
     sources.push_back(std::move(source));
@@ -76,26 +99,21 @@ std::vector<Source> labelled(const std::vector<std::string>& paths) {
   return sources;
 }
 
+// A file without one of the quantities has NaN in its row.
 void add_summaries(ReportPage& page, const std::string& title, const std::vector<Source>& sources) {
   ReportTable table{title, {{"", ""}}, {}};
   std::vector<std::vector<Summary>> all;
   for (const Source& source : sources) {
     all.push_back(read_summary(source.path));
     for (const Summary& s : all.back())
-      if (std::none_of(table.columns.begin(), table.columns.end(),
-                       [&](const TableColumn& c) { return c.name == s.name; }))
+      if (std::ranges::find(table.columns, s.name, &TableColumn::name) == table.columns.end())
         table.columns.push_back({s.name, s.unit});
   }
   if (table.columns.size() == 1) return;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     std::vector<Cell> row{sources[i].label};
-    for (std::size_t c = 1; c < table.columns.size(); ++c) {
-      const auto found = std::find_if(all[i].begin(), all[i].end(), [&](const Summary& s) {
-        return s.name == table.columns[c].name;
-      });
-      row.push_back(found == all[i].end() ? std::numeric_limits<double>::quiet_NaN()
-                                          : found->value);
-    }
+    for (std::size_t c = 1; c < table.columns.size(); ++c)
+      row.push_back(summary_value(all[i], table.columns[c].name));
     table.rows.push_back(std::move(row));
   }
   page.tables.push_back(std::move(table));
@@ -111,7 +129,8 @@ void add_origin(ReportPage& page, const Source& source) {
   if (file.root().has("provenance")) {
     const h5::Group p = file.root().group("provenance");
     const auto text = [&](const char* name) {
-      return p.has(name) ? p.read_text(name) : std::string();
+      if (!p.has(name)) return std::string();
+      return p.read_text(name);
     };
     o.made = text("created_utc");
     o.host = text("host");

@@ -1,4 +1,4 @@
-// The files a report is made of, by kind, and what each kind adds to the page.
+// The files that a report is made from, by kind, and what each kind adds to the page.
 #pragma once
 
 #include <map>
@@ -12,12 +12,12 @@ namespace langer::report {
 
 struct Source {
   std::string path, label;
-  double angle = 0;  // a number that tells the members of a sweep apart, in the label
+  double angle = 0;  // the number in the label, which differs between members of a sweep
   bool numbered = false;
 };
 
-// Labels from the folders that tell the files apart: alpha_030/post/curves.h5 is "alpha = 30"; a
-// file alone by its own folder.
+// Labels from the folders in which the paths differ: alpha_030/post/curves.h5 is "alpha = 30". A
+// single file is labelled by its own folder.
 std::vector<Source> labelled(const std::vector<std::string>& paths);
 
 void add_solutions(ReportPage& page, const std::vector<Source>& sources,
@@ -26,9 +26,9 @@ void add_curves(ReportPage& page, const std::vector<Source>& sources);
 void add_sweeps(ReportPage& page, const std::vector<Source>& sources);
 void add_materials(ReportPage& page, const std::vector<Source>& sources);
 void add_sensitivities(ReportPage& page, const std::vector<Source>& sources);
-// /summary of the files of one kind, one row for each
+// A table of /summary of the files of one kind, one row for each.
 void add_summaries(ReportPage& page, const std::string& title, const std::vector<Source>& sources);
-// who made a file and from what
+// Which program made a file, when, where, and from which inputs.
 void add_origin(ReportPage& page, const Source& source);
 
 }  // namespace langer::report

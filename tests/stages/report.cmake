@@ -23,7 +23,7 @@ expect_said("no file to report on")
 run(3 ${BIN}/langer-report runs/smoke/report/report.yaml --curves runs/smoke/mesh/mesh.h5 -o none.html)
 expect_said("schema mesh/1")
 run(2 ${BIN}/langer-report runs/smoke/report/report.yaml --mesh runs/smoke/mesh/mesh.h5 --set "fields=[u_y]" -o none.html)
-expect_said("displacements are always there")
+expect_said("displacements are always shown")
 # a budget: fewer states, then the surface alone, never more than asked for
 run(0 ${BIN}/langer-report runs/smoke/report/report.yaml --solution runs/smoke/alpha_060/solve/solution.h5 --set megabytes=1.2 -o little.html)
 file(SIZE ${WORK}/project/little.html little)
