@@ -28,7 +28,7 @@ struct Given {
 
 int show_files(const Given& given) {
   for (const std::string& file : given.places) {
-    need_file(file);
+    require_file(file);
     put_out(given.config ? show_config(file) : given.json ? show_summary(file) : show(file));
   }
   return 0;

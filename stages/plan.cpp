@@ -10,7 +10,8 @@
 
 int main(int argc, char** argv) {
   using namespace langer;
-  std::string file, folder;
+  std::string file;
+  std::string folder;
   pipeline::Overrides overrides;
   bool quiet = false;
   bool verbose = false;
@@ -31,20 +32,23 @@ int main(int argc, char** argv) {
     int code = 0;
     if (!options.read(plan_usage(), argc, argv, code)) return code;
     const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
-    const PlanReport report =
-        dry_run ? check_pipeline(file, folder, overrides)
-                : plan(file, folder, bin, command_line(argc, argv), others, overrides);
+    PlanReport report;
+    if (dry_run) {
+      report = check_pipeline(file, folder, overrides);
+    } else {
+      report = plan(file, folder, bin, command_line(argc, argv), others, overrides);
+    }
     if (verbose) say_line("plan: {}, programs in {}", version_line("langer-plan"), bin);
     for (const std::string& doubt : report.doubts) say_line("plan: warning: {}", doubt);
     if (quiet) return 0;
     if (dry_run)
-      say_line("plan: dry run, nothing is written: {} would hold {} nodes, {} steps", report.folder,
+      say_line("plan: dry run, nothing is written: {} would have {} nodes, {} steps", report.folder,
                report.nodes, report.steps);
     else
       say_line("plan: {}: {} nodes, {} steps, {} configs new or changed", report.folder,
                report.nodes, report.steps, report.changed);
     if (others.snakemake && !dry_run)
-      say_line("plan: to run it by Snakemake: snakemake -d {0} -s {0}/Snakefile --cores 4",
+      say_line("plan: to run it with Snakemake: snakemake -d {0} -s {0}/Snakefile --cores 4",
                report.folder);
     if (others.slurm && !dry_run)
       say_line("plan: to send it to Slurm: {}/slurm/submit [options of sbatch]", report.folder);

@@ -447,7 +447,7 @@ int export_scene(int argc, char** argv) {
     if (!options.read(usage, argc, argv, code)) return code;
     never_replace(solution);
     if (!log.empty()) kept.open(log, command_line(argc, argv), false);
-    need_file(solution);
+    require_file(solution);
     for (const WrittenDeck& deck : write_decks(solution, files)) {
       if (!quiet) say_line("post: {} for {}", deck.file, deck.program);
       for (const std::string& line : deck.warnings) say_line("post: warning: {}", line);

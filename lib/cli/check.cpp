@@ -80,7 +80,7 @@ std::string kind_of(const std::string& path) {
 
 std::string check_file(const std::string& path, std::string kind) {
   if (kind.empty()) {
-    need_file(path);
+    require_file(path);
     kind = kind_of(path);
   }
   if (!has_schema(kind)) schema_text(kind);  // says which there are
@@ -90,12 +90,12 @@ std::string check_file(const std::string& path, std::string kind) {
                        report.steps, warnings(report.doubts));
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
-  for (const Effective::File& file : effective.files) need_file(file.path, file.place, file.key);
-  if (const std::vector<Error> lost = lost_names(effective.names); !lost.empty())
+  for (const Effective::File& file : effective.files) require_file(file.path, file.place, file.key);
+  if (const std::vector<Error> lost = unknown_names(effective.names); !lost.empty())
     throw Failure(Exit::config, lost);
   std::vector<std::string> doubts = effective.notices;
-  if (effective.look_at_data)
-    for (const std::string& doubt : effective.look_at_data()) doubts.push_back(doubt);
+  if (effective.check_data)
+    for (const std::string& doubt : effective.check_data()) doubts.push_back(doubt);
   return fmt::format("{}: {}, right{}", path, kind, warnings(doubts));
 }
 

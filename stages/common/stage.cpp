@@ -92,16 +92,16 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
                      const std::string& command, const StageWork& own) {
   std::erase_if(task.inputs, [](const auto& port) { return port.second.empty(); });
   for (const auto& [port, files] : task.inputs)
-    for (const std::string& file : files) need_file(file);
+    for (const std::string& file : files) require_file(file);
   Tree tree = load_yaml(given.config_file);
   for (const std::string& file : files_of(tree)) never_replace(file);
   for (const std::string& setting : given.settings) apply_setting(tree, setting);
   std::vector<std::string> ports;
   for (const auto& [port, files] : task.inputs) ports.push_back(port);
-  need_one_source(spec, tree, ports);
+  require_one_source(spec, tree, ports);
   ReadConfig config = own.read(std::move(tree));
   task.where = config.where;
-  if (!task.dry_run) first([&] { need_output(task.output, given.config_file, task.inputs); });
+  if (!task.dry_run) first([&] { check_output(task.output, given.config_file, task.inputs); });
   task.identity =
       identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);

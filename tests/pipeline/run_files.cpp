@@ -85,17 +85,17 @@ TEST_CASE("a file that a config names must be there") {
 TEST_CASE("an output may not be a folder, replace what it is made from, or lie below a file") {
   Folder folder;
   const std::string config = folder.at("here/a.yaml");
-  need_output(folder.at("new/deep/out.h5"), config, {});
+  check_output(folder.at("new/deep/out.h5"), config, {});
   CHECK(fs::is_directory(folder.at("new/deep")));
   for (const std::string& bad : {folder.at("there"), config, folder.at("there/../here/a.yaml"),
                                  folder.at("here/c.csv"), folder.at("here/c.csv/out.h5")}) {
     CAPTURE(bad);
-    CHECK_THROWS_AS(need_output(bad, config, {{"curve", {folder.at("here/c.csv")}}}), Failure);
+    CHECK_THROWS_AS(check_output(bad, config, {{"curve", {folder.at("here/c.csv")}}}), Failure);
   }
   CHECK(fs::is_regular_file(folder.at("here/c.csv")));
   for (const std::string& input :
        {config, folder.at("there/../here/a.yaml"), folder.at("here/c.csv")})  // whatever it holds
-    CHECK_THROWS_WITH_AS(need_output(input, config, {{"curve", {folder.at("here/c.csv")}}}),
+    CHECK_THROWS_WITH_AS(check_output(input, config, {{"curve", {folder.at("here/c.csv")}}}),
                          (input + ": the output would replace an input").c_str(), Failure);
 }
 

@@ -70,7 +70,7 @@ run(0 "${WORK}/own programs, here/langer-plan" p.yaml -o runs/blank)
 run(0 make -C runs/blank)
 file(COPY ${BIN}/langer-plan DESTINATION "${WORK}/own (programs)")
 run(3 "${WORK}/own (programs)/langer-plan" p.yaml -o runs/bracket)
-expect_said("the programs lie in a folder with ( in its name")
+expect_said("the programs are in a folder with ( in its name")
 
 # a hundred members, in CPU time beside ten: the machine may have other work, and files wait for no disk
 macro(plan_in seconds into)

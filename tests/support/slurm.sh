@@ -97,7 +97,7 @@ langer times runs/sweep > times; cat times
 for member in way_good way_other; do [ -s runs/sweep/$member/post/curves.h5 ] || fail "$member was not made"; done
 [ ! -e runs/sweep/way_bad/post/curves.h5 ] || fail "the bad member was made"
 grep -q 'way_bad/solve/solution: exit 4; log: runs/sweep/way_bad/solve/solution.log' times || fail "the failed member is not named"
-grep -q 'not run: what it reads is not made: way_bad/solve/solution.h5' runs/sweep/slurm/post_*.txt || fail "the member behind it does not say why it did not run"
+grep -q 'not run: these inputs are missing: way_bad/solve/solution.h5' runs/sweep/slurm/post_*.txt || fail "the member behind it does not say why it did not run"
 # sent again, what is up to date ends at once: no log is newer
 touch before
 runs/sweep/slurm/submit > /dev/null && settled

@@ -23,6 +23,12 @@ namespace langer {
 
 namespace {
 
+void add_notices(Effective& e, const std::vector<std::string>& more) {
+  e.notices.insert(e.notices.end(), more.begin(), more.end());
+}
+
+// Reads a config, and collects what a plan needs: the canonical text, the input files that it
+// names, the names that other configs refer to, and checks of measured data.
 template <Listed Config>
 Effective check(Tree tree, const std::string& folder) {
   const Loaded<Config> loaded = read_config<Config>(std::move(tree));
@@ -35,27 +41,24 @@ Effective check(Tree tree, const std::string& folder) {
     }
   }
   if constexpr (std::is_same_v<Config, FitConfig>) {
-    e.look_at_data = [config = loaded.config] {
+    e.check_data = [config = loaded.config] {
       return doubts(measured_tests(config));
     };
     e.names = names_in(loaded.config.law);
   }
   if constexpr (std::is_same_v<Config, MeshConfig> || std::is_same_v<Config, Material>)
     e.names = names_in(loaded.config);
-  if constexpr (std::is_same_v<Config, SolveConfig>) {
-    const std::vector<std::string> doubts = review_lines(loaded.config, {}, loaded.where);
-    e.notices.insert(e.notices.end(), doubts.begin(), doubts.end());
-  }
-  if constexpr (std::is_same_v<Config, Material>) {
-    const std::vector<std::string> doubts = review_lines(loaded.config, "", loaded.where);
-    e.notices.insert(e.notices.end(), doubts.begin(), doubts.end());
-  }
+  if constexpr (std::is_same_v<Config, SolveConfig>)
+    add_notices(e, review_lines(loaded.config, {}, loaded.where));
+  if constexpr (std::is_same_v<Config, Material>)
+    add_notices(e, review_lines(loaded.config, "", loaded.where));
   if constexpr (std::is_same_v<Config, SolveConfig> || std::is_same_v<Config, PostConfig>)
     e.names = names_in(loaded.config, loaded.where);
   return e;
 }
 
-// a law that stands alone is one for bodies
+// A material file that no fit made must be stiff in the undeformed state: otherwise the first
+// tangent of a body made of it is singular.
 Effective check_material(Tree tree, const std::string& folder) {
   const Loaded<Material> loaded = read_config<Material>(tree);
   if (at_rest(loaded.config) == AtRest::without_stiffness)
@@ -71,7 +74,7 @@ ConfigKind kind() {
   return {check<Config>, describe<Config>, top_keys<Config>, json_schema<Config>};
 }
 
-// a new stage stands here, and below as a type
+// The stages' config types. A new stage is added here, and at the end of this file.
 const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
   static const std::vector<std::pair<const char*, ConfigKind>> table{
       {"mesh", kind<MeshConfig>()},

@@ -1,6 +1,9 @@
-// The configs of all stages by name: what they really say once read (defaults filled in, includes
-// and overrides resolved), and what can be said of them without a file: reference, top keys, JSON
-// Schema.
+// The configs of all stages by name.
+//
+// The effective config is a config as the stage uses it: defaults are filled in, includes and
+// overrides are resolved, keys are in a fixed order. Two configs with the same effective text mean
+// the same computation, whatever their comments and order. For each kind of config there are also
+// a reference (--describe), a list of the top keys (--help) and a JSON Schema (editors).
 #pragma once
 
 #include <functional>
@@ -22,9 +25,10 @@ struct Effective {
   };
   std::vector<File> files;                // input files that the config names
   std::vector<std::string> notices = {};  // keys and words by their former names
-  // Reads what is measured in them; throws Failure(input), gives what looks wrong in it. Empty:
-  // nothing is measured.
-  std::function<std::vector<std::string>()> look_at_data = {};
+                                          // Reads the measured data in the files and returns
+                                          // warnings about them; throws Failure(input).
+  // Empty for a config without measured data.
+  std::function<std::vector<std::string>()> check_data = {};
   SceneNames names = {};
 };
 
@@ -35,7 +39,8 @@ struct ConfigKind {
   std::string (*schema)(const std::string& title);
 };
 
-// of a stage, or of a YAML file given at a port ("material"); nullptr where there is none
+// The kind of config of a stage, or of a YAML file given at a port ("material"); nullptr for an
+// unknown name.
 const ConfigKind* find_config_kind(const std::string& name);
 std::vector<std::string> config_kind_names();
 

@@ -19,14 +19,23 @@ constexpr std::size_t most_steps = 10'000;
 using Point = std::map<std::string, std::size_t>;  // axis -> index of its value
 
 bool contains(const std::vector<std::string>& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
+  return std::ranges::find(list, word) != list.end();
 }
 
+// Number of digits before the decimal point.
 std::size_t integer_digits(const std::string& label) {
   const std::size_t first = label.find_first_of("0123456789");
   return std::min(label.find_first_not_of("0123456789", first), label.size()) - first;
 }
 
+// The two declarations of an axis have the same points.
+bool same_points(const Axis& a, const Axis& b) {
+  return to_text(a.design) == to_text(b.design) &&
+         std::ranges::equal(a.points, b.points, {}, &AxisPoint::label, &AxisPoint::label);
+}
+
+// The steps of a pipeline: gathers the axes, orders the nodes so that inputs come first, then makes
+// the steps of each node. Errors are collected and thrown together after each of these parts.
 class Expansion {
  public:
   Expansion(const Pipeline& pipeline, const ReadYaml& read) : pipeline_(pipeline), read_(read) {}
@@ -47,34 +56,30 @@ class Expansion {
   const Pipeline& pipeline_;
   const ReadYaml& read_;
   Findings f_;
-  std::vector<const Axis*> axes_;  // in order of declaration
-  std::vector<const Node*> order_, open_;
+  std::vector<const Axis*> axes_;   // in order of declaration
+  std::vector<const Node*> order_;  // inputs first
+  std::vector<const Node*> open_;   // nodes whose inputs are being visited
   std::map<std::string, std::vector<const Axis*>> axes_of_;
   std::vector<Step> steps_;
-  std::set<std::string> used_;
+  std::set<std::string> used_;  // outputs that another step reads
 
   void stop_if_wrong() {
     if (!f_.errors.empty()) throw_sorted(std::move(f_.errors));
   }
 
+  // Collects the axes of all nodes. An axis that two nodes declare is one axis.
   void gather_axes() {
     std::map<std::string, std::string> folders;  // first folder of a member -> axis
     for (const Node& n : pipeline_.nodes)
       for (const Axis& axis : n.sweep) {
-        const auto same = std::find_if(axes_.begin(), axes_.end(),
-                                       [&](const Axis* a) { return a->name == axis.name; });
+        const auto same = std::ranges::find(axes_, axis.name, &Axis::name);
         if (same == axes_.end()) {
           axes_.push_back(&axis);
           for (std::size_t i = 0; i < axis.points.size(); ++i)
             folders[member_folder(axis, i)] = axis.name;
           continue;
         }
-        const bool agree =
-            to_text(axis.design) == to_text((*same)->design) &&
-            std::equal(axis.points.begin(), axis.points.end(), (*same)->points.begin(),
-                       (*same)->points.end(),
-                       [](const AxisPoint& a, const AxisPoint& b) { return a.label == b.label; });
-        if (!agree)
+        if (!same_points(axis, **same))
           f_.say(axis.place, fmt::format("nodes.{}.sweep.{}", n.name, axis.name),
                  fmt::format("the axis has other values at line {}", (*same)->place.line),
                  "the same values in the same order", "an axis that two nodes declare is one axis");
@@ -86,6 +91,7 @@ class Expansion {
                "another name");
   }
 
+  // Whether each port of a node gets a file of the right kind.
   void check_kinds(const Node& n) {
     for (const Source& s : n.sources) {
       const std::string key = fmt::format("nodes.{}.{}", n.name, s.port);
@@ -102,13 +108,15 @@ class Expansion {
     }
   }
 
+  // Orders the nodes by a depth-first search: a node comes after its inputs, and has its own axes
+  // and those of its inputs that it does not gather.
   void visit(const Node& n) {
     if (contains_node(order_, n)) return;
     if (contains_node(open_, n)) {
-      std::string round;
-      for (auto it = std::find(open_.begin(), open_.end(), &n); it != open_.end(); ++it)
-        round += (*it)->name + " -> ";
-      f_.say(n.place, "nodes." + n.name, "the nodes depend on each other: " + round + n.name);
+      std::string cycle;
+      for (auto it = std::ranges::find(open_, &n); it != open_.end(); ++it)
+        cycle += (*it)->name + " -> ";
+      f_.say(n.place, "nodes." + n.name, "the nodes depend on each other: " + cycle + n.name);
       return;
     }
     open_.push_back(&n);
@@ -122,12 +130,12 @@ class Expansion {
       for (const Axis* axis : axes_of_[s.node])
         if (!chosen(s, axis->name)) below.push_back(axis->name);
     }
+    std::string expected = "no axis: the inputs have none";
+    if (!below.empty()) expected = "an axis of the inputs: " + list_words(below);
     for (const std::string& name : n.over)
       if (!contains(below, name))
         f_.say(n.over_place, fmt::format("nodes.{}.over", n.name),
-               fmt::format("found \"{}\"", name),
-               below.empty() ? "no axis: the inputs have none"
-                             : "an axis of the inputs: " + list_words(below));
+               fmt::format("found \"{}\"", name), expected);
     for (const std::string& name : below)
       if (!contains(n.over, name)) found.push_back(name);
     axes_of_[n.name] = ordered(found);
@@ -135,21 +143,24 @@ class Expansion {
     order_.push_back(&n);
   }
 
-  // label of the axis that the source is fixed to, or nullptr
+  // The label of the axis that the source names, or nullptr.
   static const std::string* chosen(const Source& s, const std::string& axis) {
     for (const auto& [name, label] : s.at)
       if (name == axis) return &label;
     return nullptr;
   }
 
+  // Whether the member that a source names exists.
   void check_member(const Node& n, const Source& s, const std::string& axis,
                     const std::string& label) {
     std::vector<std::string> known;
     for (const Axis* a : axes_of_[s.node]) known.push_back(a->name);
     const std::string key = fmt::format("nodes.{}.{}.{}", n.name, s.port, axis);
-    if (!contains(known, axis))
-      return f_.say(s.place, key, fmt::format("the node {} has no such axis", s.node),
-                    known.empty() ? "none: it has one member" : "one of " + list_words(known));
+    if (!contains(known, axis)) {
+      std::string expected = "none: it has one member";
+      if (!known.empty()) expected = "one of " + list_words(known);
+      return f_.say(s.place, key, fmt::format("the node {} has no such axis", s.node), expected);
+    }
     std::vector<std::string> labels;
     for (const Axis* a : axes_of_[s.node])
       if (a->name == axis)
@@ -165,8 +176,10 @@ class Expansion {
   }
 
   static bool contains_node(const std::vector<const Node*>& list, const Node& n) {
-    return std::find(list.begin(), list.end(), &n) != list.end();
+    return std::ranges::find(list, &n) != list.end();
   }
+
+  // The named axes in order of declaration.
 
   std::vector<const Axis*> ordered(const std::vector<std::string>& names) const {
     std::vector<const Axis*> found;
@@ -175,7 +188,7 @@ class Expansion {
     return found;
   }
 
-  // every combination of the axes' points, the last axis fastest
+  // All combinations of the points of some axes. The last axis varies fastest.
   static std::vector<Point> points(const std::vector<const Axis*>& axes) {
     std::vector<Point> all{Point{}};
     for (const Axis* axis : axes) {
@@ -193,13 +206,14 @@ class Expansion {
     return all;
   }
 
+  // The folder of a member, such as "code_FER/alpha_030/".
   static std::string member(const std::vector<const Axis*>& axes, const Point& at) {
     std::string folder;
     for (const Axis* axis : axes) folder += member_folder(*axis, at.at(axis->name)) + "/";
     return folder;
   }
 
-  // the config as written, from its file where one is named
+  // The config as written, read from its file if it is the name of one.
   Tree written(const Node& n, const Tree& config) {
     Tree tree = config;
     if (config.kind == Tree::Kind::scalar) {
@@ -216,6 +230,9 @@ class Expansion {
     return tree;
   }
 
+  // The config of one member: the node's config or that of a variant, then `set`, then the values
+  // of
+  // the axes.
   Tree config_at(const Node& n, const Point& at) {
     const Tree* source = &n.config;
     for (const Axis& axis : n.sweep)
@@ -230,22 +247,28 @@ class Expansion {
     return config;
   }
 
+  // Members share most of their config, so an error of one is mostly an error of all.
+  void add_error(const Error& e) {
+    for (const Error& known : f_.errors)
+      if (text(known) == text(e)) return;
+    f_.errors.push_back(e);
+  }
+
   void add_steps(const Node& n) {
     for (const Point& at : points(axes_of_[n.name])) {
       Step step{n.name, n.stage, member(axes_of_[n.name], at) + n.name, {}, {}, true};
       try {
         step.config = config_at(n, at);
       } catch (const Failure& failure) {
-        for (const Error& e : failure.errors())
-          if (std::none_of(f_.errors.begin(), f_.errors.end(),
-                           [&](const Error& known) { return text(known) == text(e); }))
-            f_.errors.push_back(e);
+        for (const Error& e : failure.errors()) add_error(e);
       }
       for (const Source& s : n.sources) add_inputs(n, s, at, step);
       steps_.push_back(std::move(step));
     }
   }
 
+  // The files that one member reads from a source: of one member of the source's node, or of all
+  // members along the axes that the node gathers.
   void add_inputs(const Node& n, const Source& s, const Point& at, Step& step) {
     if (s.node.empty()) {
       step.inputs.push_back({s.port, s.file, false, s.place});
@@ -259,11 +282,13 @@ class Expansion {
     const std::vector<Point> members = points(gathered);
     for (const Point& p : members) {
       Point full = p;
-      for (const Axis* axis : axes)
+      for (const Axis* axis : axes) {
+        const auto own = at.find(axis->name);
         if (const std::string* label = chosen(s, axis->name))
           full[axis->name] = index_of(*axis, *label);
-        else if (const auto it = at.find(axis->name); it != at.end())
-          full[axis->name] = it->second;
+        else if (own != at.end())
+          full[axis->name] = own->second;
+      }
       step.inputs.push_back(
           {s.port, member(axes, full) + s.node + "/" + from.stage->output, true, s.place});
       used_.insert(step.inputs.back().path);
@@ -271,11 +296,13 @@ class Expansion {
     if (n.stage->port(s.port)->members) describe_members(gathered, members, step);
   }
 
-  // the keys `axes` and `members` of a config that gathers
+  // Writes the keys `axes` and `members` of a config of a stage that gathers.
   static void describe_members(const std::vector<const Axis*>& axes,
                                const std::vector<Point>& members, Step& step) {
-    Tree axis_list, member_list;
-    axis_list.kind = member_list.kind = Tree::Kind::list;
+    Tree axis_list;
+    Tree member_list;
+    axis_list.kind = Tree::Kind::list;
+    member_list.kind = Tree::Kind::list;
     for (const Axis* axis : axes) {
       Tree one;
       one.kind = Tree::Kind::map;
@@ -286,7 +313,8 @@ class Expansion {
       axis_list.list.push_back(one);
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
-      Tree one, at;
+      Tree one;
+      Tree at;
       at.kind = Tree::Kind::list;
       for (const Axis* axis : axes)
         at.list.push_back(text_tree(axis->points[members[i].at(axis->name)].label));

@@ -1,9 +1,13 @@
-// Pipeline -> steps, one per run of a program. Pure: files are read by the function given.
+// Expands a pipeline into steps, one for each run of a program. Files are read only by the function
+// that is passed, so the expansion can be tested without files.
+//
 // A node's axes are its own sweep plus those of its inputs; `over` removes the axes that it
 // gathers. Several axes multiply. Axes nest in the order in which the pipeline declares them:
-// code_FER/alpha_030/solve. Refused: nodes that depend on each other, an axis declared twice with
-// other points, `over` an axis that is not there, an input of the wrong kind, folders that would
-// coincide, more than 10 000 steps.
+// code_FER/alpha_030/solve.
+//
+// Refused: nodes that depend on each other, an axis that is declared again with other points,
+// `over` an unknown axis, an input of the wrong kind, two members with the same folder, and more
+// than 10 000 steps.
 #pragma once
 
 #include <functional>
@@ -16,8 +20,8 @@ namespace langer::pipeline {
 
 struct StepInput {
   std::string port;
-  std::string
-      path;  // relative to the run's folder if a step makes it, otherwise as the pipeline gives it
+  // Relative to the run's folder if a step makes it, otherwise as written in the pipeline.
+  std::string path;
   bool made = false;  // by a step
   Place place;
 };

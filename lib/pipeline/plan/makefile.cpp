@@ -10,18 +10,22 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
                           const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);
   text +=
-      "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1]   STRICT: a rebuilt program makes its results again\n"
+      "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1]   "
+      "STRICT: a rebuilt program makes its results again\n"
       ".DELETE_ON_ERROR:\n"
       ".SUFFIXES:\n"
       "MAKEFLAGS += --no-builtin-rules\n"
       "LAUNCH ?=\n"
-      "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would burn 0.07 s of CPU each, waiting\n"
+      "# OpenBLAS's threads come when `blas_threads` asks for them; made at every start they would "
+      "burn 0.07 s of CPU each, waiting\n"
       "export OPENBLAS_NUM_THREADS ?= 1\n";
   text += fmt::format("BIN ?= {}\n\n.PHONY: all\nall: {}\n", bin, fmt::join(finals, " "));
-  // in place of "Nothing to be done"; but `make -q` asks whether there is, and any recipe of `all`
-  // would be
+  // `make` ends with the folder of the results instead of "Nothing to be done". The recipe is
+  // hidden from `make -q`, which asks whether anything is to be made: any recipe of `all` would be.
   text +=
-      "ifeq (,$(findstring q,$(filter-out --%,$(firstword -$(MAKEFLAGS)))))\n\t@echo \"results: $(CURDIR)\"\nendif\n";
+      "ifeq (,$(findstring q,$(filter-out --%,$(firstword -$(MAKEFLAGS)))))\n"
+      "\t@echo \"results: $(CURDIR)\"\n"
+      "endif\n";
   for (const Rule& rule : rules) {
     const std::string program = "$(BIN)/" + rule.program;
     text += fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target,

@@ -18,12 +18,14 @@ namespace {
                 Error{{option, 0, 0}, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
-void forget_lines(Tree& tree) {
-  tree.place.line = tree.place.column = 0;
-  for (Tree& part : tree.list) forget_lines(part);
-  for (auto& entry : tree.map) forget_lines(entry.value);
+void remove_lines(Tree& tree) {
+  tree.place.line = 0;
+  tree.place.column = 0;
+  for (Tree& part : tree.list) remove_lines(part);
+  for (auto& entry : tree.map) remove_lines(entry.value);
 }
 
+// The parts of [axis:]node.key=value.
 struct Typed {
   std::string axis, node, key;
   Tree value;
@@ -34,21 +36,16 @@ Typed typed(const char* option, const std::string& text, const char* example) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = text.substr(0, equals).find(':');
   std::size_t begin = 0;
-  if (colon == std::string::npos) {
-    begin = 0;
-  } else {
+  if (colon != std::string::npos) {
     begin = colon + 1;
+    t.axis = text.substr(0, colon);
   }
   const std::size_t dot = text.find('.', begin);
   if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == begin ||
       dot + 1 >= equals)
     refuse(option, "found \"" + text + "\"",
            fmt::format("node.key=value, for example {} {}", option, example));
-  if (colon == std::string::npos) {
-    t.axis = "";
-  } else {
-    t.axis = text.substr(0, colon);
-  }
+
   t.node = text.substr(begin, dot - begin);
   t.key = text.substr(dot + 1, equals - dot - 1);
   t.value = typed_value(text.substr(equals + 1), option);
@@ -57,6 +54,8 @@ Typed typed(const char* option, const std::string& text, const char* example) {
 
 Tree* child(Tree& tree, const std::string& key) { return const_cast<Tree*>(tree.find(key)); }
 
+// The value of a key of a map; an empty one is added if the map does not have the key. `like` has
+// the place that messages about it name.
 Tree& made_child(Tree& tree, const std::string& key, const Tree& like) {
   tree.kind = Tree::Kind::map;
   if (Tree* found = child(tree, key)) return *found;
@@ -66,6 +65,7 @@ Tree& made_child(Tree& tree, const std::string& key, const Tree& like) {
   return tree.map.back().value;
 }
 
+// The node of this name; refuses an unknown one.
 Tree& node_of(Tree& pipeline, const char* option, const std::string& name) {
   Tree* nodes = child(pipeline, "nodes");
   std::vector<std::string> known;
@@ -79,22 +79,27 @@ Tree& node_of(Tree& pipeline, const char* option, const std::string& name) {
   return *child(*nodes, name);
 }
 
-// the axis of this node that varies the key, or ""
-std::string swept_by(const Tree& node, const std::string& key) {
-  const auto names = [&](const Tree* tree) {
-    return tree && (tree->scalar == key ||
-                    std::any_of(tree->list.begin(), tree->list.end(),
-                                [&](const Tree& item) { return item.scalar == key; }));
-  };
-  if (const Tree* sweep = node.find("sweep"))
-    for (const auto& [axis, value] : sweep->map)
-      if (names(value.find("key")) || names(value.find("keys")) ||
-          (value.find("grid") && value.find("grid")->find(key)))
-        return axis;
+// Whether a text, or a list of texts, contains the key.
+bool contains_key(const Tree* tree, const std::string& key) {
+  if (!tree) return false;
+  if (tree->scalar == key) return true;
+  return std::ranges::find(tree->list, key, &Tree::scalar) != tree->list.end();
+}
+
+// The axis of a node that varies the key; empty if none does.
+std::string axis_varying(const Tree& node, const std::string& key) {
+  const Tree* sweep = node.find("sweep");
+  if (!sweep) return "";
+  for (const auto& [axis, value] : sweep->map) {
+    if (contains_key(value.find("key"), key) || contains_key(value.find("keys"), key)) return axis;
+    const Tree* grid = value.find("grid");
+    if (grid && grid->find(key)) return axis;
+  }
   return "";
 }
 
-// contacts.sphere.friction: friction; fibre_angles[0]: fibre_angles
+// The default name of an axis: of contacts.sphere.friction it is friction, of fibre_angles[0]
+// fibre_angles.
 std::string axis_name(const std::string& key) {
   const auto steps = split_path(key);
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
@@ -106,7 +111,7 @@ std::string axis_name(const std::string& key) {
 
 Tree typed_value(const std::string& text, const char* option) {
   Tree value = parse_yaml(text, option);
-  forget_lines(value);
+  remove_lines(value);
   return value;
 }
 
@@ -114,7 +119,7 @@ void apply(const Overrides& overrides, Tree& pipeline) {
   for (const std::string& setting : overrides.settings) {
     Typed t = typed("--set", setting, "solve.friction=0.2");
     Tree& node = node_of(pipeline, "--set", t.node);
-    if (const std::string axis = swept_by(node, t.key); !axis.empty())
+    if (const std::string axis = axis_varying(node, t.key); !axis.empty())
       refuse(
           "--set", fmt::format("{} is varied by the axis \"{}\" of {}", t.key, axis, t.node),
           "a key that is not swept",
@@ -135,8 +140,8 @@ void apply(const Overrides& overrides, Tree& pipeline) {
     axis.scalar.clear();
     axis.kind = Tree::Kind::map;
     axis.map = {{"key", key}, {"values", t.value}};
-    made_child(made_child(node, "sweep", t.value), t.axis.empty() ? axis_name(t.key) : t.axis,
-               t.value) = axis;
+    const std::string name = text_or(t.axis, axis_name(t.key));
+    made_child(made_child(node, "sweep", t.value), name, t.value) = axis;
   }
 }
 

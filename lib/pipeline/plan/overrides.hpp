@@ -1,10 +1,10 @@
-// What a command line changes in a pipeline before it is read: a value of a node's config, or a
-// sweep that its file does not have.
+// Changes of a pipeline from the command line, before it is read: a value of a node's config, or a
+// sweep that the file does not have.
 //   --set   solve.friction=0.2          nodes.solve.set:   {friction: 0.2}
 //   --sweep solve.friction=[0, 0.2]     nodes.solve.sweep: {friction: {key: friction, values: [0, 0.2]}}
-// An axis is called after the last key of its path; `angle:solve.fibre_angles[0]=[0, 60]` gives it
-// another name. Refused (Failure config): another form, a node that is not there, a key that the
-// node sweeps.
+// An axis is named after the last key of its path; `angle:solve.fibre_angles[0]=[0, 60]` gives it
+// another name. Refused (Failure config): another form, an unknown node, and --set of a key that
+// the node sweeps.
 #pragma once
 
 #include <string>
@@ -20,7 +20,8 @@ struct Overrides {
 
 void apply(const Overrides& overrides, Tree& pipeline);
 
-// a value that was typed after an option: it has no line to point at
+// A value that was typed after an option. Messages about it name the option, because it has no line
+// in a file.
 Tree typed_value(const std::string& text, const char* option);
 
 }  // namespace langer::pipeline

@@ -18,7 +18,7 @@ namespace langer::pipeline {
 
 namespace {
 
-// A number's shortest text where the value is a number, otherwise the text as written.
+// The label of a value: the shortest text of a number, or a word as it is written.
 std::string label_of(const Tree& value, bool& is_number) {
   double x = 0;
   Findings none;
@@ -28,23 +28,29 @@ std::string label_of(const Tree& value, bool& is_number) {
   return value.scalar;
 }
 
-// nan, inf, 1e400, 1e-400, as YAML or C write them; strtod would find the same by an overflow
+// Numbers that are not finite, or outside of the range of a double: nan, .inf, 1e400, 1e-400.
 bool not_finite(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('.') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1])))
     text.remove_prefix(1);
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  return !text.empty() && end == text.data() + text.size() &&
-         (error == std::errc::result_out_of_range || (error == std::errc{} && !std::isfinite(x)));
+  if (text.empty() || end != text.data() + text.size()) return false;
+  if (error == std::errc::result_out_of_range) return true;
+  return error == std::errc{} && !std::isfinite(x);
 }
+
+// A label becomes the name of a folder.
 
 bool is_label(const std::string& label) {
   return !label.empty() && label.find_first_not_of('.') != std::string::npos &&
          is_safe_path(label) && label.find('/') == std::string::npos;
 }
 
-class Reading {
+bool takes_several(const Port& port) { return port.several; }
+
+// Reads a pipeline from its YAML tree. Errors are collected in `f`, so that one run shows all.
+class PipelineParser {
  public:
   Findings f;
 
@@ -53,13 +59,13 @@ class Reading {
     p.file = tree.place.file;
     if (!is_map(tree, "")) return p;
     known_keys(tree, "", {"pipeline", "nodes"});
-    if (const Tree* name = need(tree, "", "pipeline", "the pipeline's name")) {
+    if (const Tree* name = require(tree, "", "pipeline", "the pipeline's name")) {
       p.name = text(*name, "pipeline");
       if (name->kind == Tree::Kind::scalar && !is_name(p.name)) {
         bad_name(name->place, "pipeline", p.name);
       }
     }
-    const Tree* nodes = need(tree, "", "nodes", "a map of nodes");
+    const Tree* nodes = require(tree, "", "nodes", "a map of nodes");
     if (!nodes || !is_map(*nodes, "nodes")) return p;
     if (nodes->map.empty()) f.say(nodes->place, "nodes", "found no nodes", "at least one");
     for (const auto& [name, value] : nodes->map) names_.push_back(name);
@@ -68,7 +74,7 @@ class Reading {
   }
 
  private:
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;  // of all nodes
 
   bool is_map(const Tree& tree, const std::string& path) {
     if (tree.kind != Tree::Kind::map)
@@ -78,11 +84,11 @@ class Reading {
   void known_keys(const Tree& tree, const std::string& path,
                   const std::vector<std::string>& known) {
     for (const auto& entry : tree.map)
-      if (std::find(known.begin(), known.end(), entry.key) == known.end())
-        report_unknown_key(entry, path, known, f);
+      if (std::ranges::find(known, entry.key) == known.end()) say_unknown(entry, path, known, f);
   }
-  const Tree* need(const Tree& tree, const std::string& path, const std::string& key,
-                   const std::string& what) {
+  // The value of a required key; an error and nullptr if it is missing.
+  const Tree* require(const Tree& tree, const std::string& path, const std::string& key,
+                      const std::string& what) {
     const Tree* found = tree.find(key);
     if (!found) f.say(tree.place, join(path, key), "missing", what);
     return found;
@@ -96,7 +102,7 @@ class Reading {
     f.say(place, path, "found the name \"" + name + "\"", "letters, digits, _, + and - only",
           "it becomes the name of a folder");
   }
-  // one text or a list of texts
+  // One text, or a list of texts.
   std::vector<std::string> texts(const Tree& tree, const std::string& path) {
     std::vector<std::string> found;
     if (tree.kind != Tree::Kind::list) return {text(tree, path)};
@@ -105,6 +111,7 @@ class Reading {
     return found;
   }
 
+  // Reads one node. Without a known stage its ports are unknown, so the rest is not read.
   Node node(const std::string& name, const Tree& tree) {
     const std::string path = "nodes." + name;
     Node n;
@@ -116,7 +123,7 @@ class Reading {
             "make builds everything by this name");
     if (!is_map(tree, path)) return n;
     const std::string known_stages = "one of " + list_words(stage_names());
-    if (const Tree* stage = need(tree, path, "stage", known_stages)) {
+    if (const Tree* stage = require(tree, path, "stage", known_stages)) {
       const std::string wanted = text(*stage, path + ".stage");
       n.stage = find_stage(wanted);
       const std::string near = nearest(wanted, stage_names());
@@ -141,9 +148,7 @@ class Reading {
     if (const Tree* over = tree.find("over")) {
       n.over_place = over->place;
       n.over = texts(*over, path + ".over");
-      const bool gathers = std::any_of(n.stage->inputs.begin(), n.stage->inputs.end(),
-                                       [](const Port& p) { return p.several; });
-      if (!gathers)
+      if (std::ranges::none_of(n.stage->inputs, takes_several))
         f.say(over->place, path + ".over",
               fmt::format("the stage {} takes one file per port", n.stage->name),
               "a stage that gathers");
@@ -157,6 +162,7 @@ class Reading {
     return label_of(tree, is_number);
   }
 
+  // Reads the sources of one port: one, or a list if the port takes several files.
   void source(const Tree& tree, const std::string& path, const Port& port, Node& n) {
     const Tree* given = tree.find(port.name);
     const std::string key = join(path, port.name);
@@ -170,18 +176,21 @@ class Reading {
       one_source(&given->list[i], item(key, i), port, n);
   }
 
+  // Reads one source: the name of a node, a map that names one of its members, or a file. A text
+  // with a dot or a slash is a file.
   void one_source(const Tree* given, const std::string& key, const Port& port, Node& n) {
     Source s{port.name, "", "", {}, given->place};
     std::string wanted;
     if (given->kind == Tree::Kind::map) {
-      if (const Tree* node = need(*given, key, "node", "a node"))
+      if (const Tree* node = require(*given, key, "node", "a node"))
         wanted = text(*node, key + ".node");
       for (const auto& [axis, label] : given->map)
         if (axis != "node") s.at.push_back({axis, label_text(label, join(key, axis))});
-    } else
+    } else {
       wanted = text(*given, key);
+    }
     if (wanted.empty()) return;
-    if (std::find(names_.begin(), names_.end(), wanted) != names_.end()) {
+    if (std::ranges::find(names_, wanted) != names_.end()) {
       s.node = wanted;
       n.sources.push_back(s);
     } else if (given->kind != Tree::Kind::map && wanted.find_first_of("./") != std::string::npos) {
@@ -194,18 +203,18 @@ class Reading {
     }
   }
 
+  // A map of values by the paths of their keys.
   Settings settings(const Tree& tree, const std::string& path) {
     Settings found;
     if (!is_map(tree, path)) return found;
     for (const auto& [key, value] : tree.map) {
-      if (split_path(key).empty())
-        f.say(value.place, path, "found the key \"" + key + "\"",
-              "a path of keys like contacts[0].friction");
+      check_key(key, value.place, path);
       found.push_back({key, value});
     }
     return found;
   }
 
+  // Reads one axis of a sweep, of any kind.
   Axis axis(const std::string& name, const Tree& tree, const std::string& path) {
     Axis a;
     a.name = name;
@@ -214,20 +223,10 @@ class Reading {
     if (!is_map(tree, path)) return a;
     if (const Tree* variants = tree.find("variants")) {
       known_keys(tree, path, {"variants"});
-      if (is_map(*variants, path + ".variants"))
-        for (const auto& [label, value] : variants->map) {
-          const std::string here = path + ".variants." + label;
-          if (!is_label(label)) bad_name(value.place, path + ".variants", label);
-          AxisPoint point{label, {}, {}};
-          if (value.kind == Tree::Kind::scalar)
-            point.config = value;
-          else if (value.kind != Tree::Kind::null)  // an empty variant leaves the config as it is
-            point.settings = settings(value, here);
-          a.points.push_back(std::move(point));
-        }
+      points_of_variants(*variants, path + ".variants", a);
     } else if (const Tree* design = tree.find("design")) {
       known_keys(tree, path, {"design"});
-      points_of(*design, path + ".design", a);
+      points_of_design(*design, path + ".design", a);
     } else if (const Tree* samples = tree.find("samples")) {
       known_keys(tree, path, {"samples"});
       points_of_samples(*samples, path + ".samples", a);
@@ -235,36 +234,57 @@ class Reading {
       known_keys(tree, path, {"grid"});
       points_of_grid(*grid, path + ".grid", a);
     } else {
-      known_keys(tree, path,
-                 {"key", "keys", "values", "unit", "variants", "design", "grid", "samples"});
-      if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
-      std::vector<std::string> keys;
-      for (const char* word : {"key", "keys"})
-        if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
-      if (keys.empty())
-        f.say(tree.place, path, "missing",
-              "key: the path of the key that varies, or variants, grid, design or samples");
-      for (const std::string& key : keys)
-        if (split_path(key).empty())
-          f.say(tree.place, path, "found the key \"" + key + "\"",
-                "a path of keys like contacts[0].friction");
-      values(tree, path, keys, a);
+      points_of_values(tree, path, a);
     }
     check_points(a, path);
     return a;
   }
 
+  void check_key(const std::string& key, const Place& place, const std::string& path) {
+    if (split_path(key).empty())
+      f.say(place, path, "found the key \"" + key + "\"",
+            "a path of keys like contacts[0].friction");
+  }
+
   static constexpr std::size_t most = 10'000;  // points of an axis
 
-  // all combinations of the values of some keys, the last key fastest
+  // A variant is a map of settings, or the path of a config. An empty one leaves the config as it
+  // is.
+  void points_of_variants(const Tree& variants, const std::string& path, Axis& a) {
+    if (!is_map(variants, path)) return;
+    for (const auto& [label, value] : variants.map) {
+      if (!is_label(label)) bad_name(value.place, path, label);
+      AxisPoint point{label, {}, {}};
+      if (value.kind == Tree::Kind::scalar)
+        point.config = value;
+      else if (value.kind != Tree::Kind::null)
+        point.settings = settings(value, path + "." + label);
+      a.points.push_back(std::move(point));
+    }
+  }
+
+  // An axis {key, values, unit}. `keys` names several keys with the same value.
+  void points_of_values(const Tree& tree, const std::string& path, Axis& a) {
+    known_keys(tree, path,
+               {"key", "keys", "values", "unit", "variants", "design", "grid", "samples"});
+    if (const Tree* unit = tree.find("unit")) a.unit = text(*unit, path + ".unit");
+    std::vector<std::string> keys;
+    for (const char* word : {"key", "keys"})
+      if (const Tree* given = tree.find(word)) keys = texts(*given, join(path, word));
+    if (keys.empty())
+      f.say(tree.place, path, "missing",
+            "key: the path of the key that varies, or variants, grid, design or samples");
+    for (const std::string& key : keys) check_key(key, tree.place, path);
+    values(tree, path, keys, a);
+  }
+
+  // All combinations of the values of some keys. The last key varies fastest.
   void points_of_grid(const Tree& tree, const std::string& path, Axis& a) {
     if (!is_map(tree, path)) return;
     a.points = {{"", {}, {}}};
     for (const auto& [key, given] : tree.map) {
       const std::string here = join(path, key);
-      if (split_path(key).empty())
-        f.say(given.place, here, "found the key \"" + key + "\"",
-              "a path of keys like contacts[0].friction");
+      check_key(key, given.place, here);
       if (given.kind != Tree::Kind::list || given.list.empty()) {
         f.say(given.place, here, "found " + description(given), "a list of values");
         continue;
@@ -285,11 +305,13 @@ class Reading {
       if (!is_label(point.label)) bad_name(tree.place, path, point.label);
   }
 
-  void points_of(const Tree& tree, const std::string& path, Axis& a) {
+  // The points of a design of experiments, numbered from 1. After an error one point is added, so
+  // that no further message complains about an axis without points.
+  void points_of_design(const Tree& tree, const std::string& path, Axis& a) {
     Design design;
     const std::size_t before = f.errors.size();
     read_value(tree, path, Member{}, design, f);
-    if (f.errors.size() > before) return a.points.push_back({"1", {}, {}});  // enough is said
+    if (f.errors.size() > before) return a.points.push_back({"1", {}, {}});
     const std::vector<VecX> points = design_points(design);
     if (points.size() > most)
       return f.say(tree.place, path, std::to_string(points.size()) + " members", "10000 at most",
@@ -307,7 +329,8 @@ class Reading {
     }
   }
 
-  // sets of parameters that a fit leaves open, by their number
+  // Sets of parameters drawn from a fit's covariance, numbered from 1. After an error one point is
+  // added, as in a design.
   void points_of_samples(const Tree& tree, const std::string& path, Axis& a) {
     Member rule;
     rule.range = between(2, most);
@@ -318,12 +341,13 @@ class Reading {
       number.place = tree.place;
       a.points.push_back({std::to_string(i), {}, {{"number", number}}});
     }
-    if (a.points.empty()) a.points.push_back({"1", {}, {}});  // enough is said
+    if (a.points.empty()) a.points.push_back({"1", {}, {}});
   }
 
+  // One point for each value: a finite number, or a word.
   void values(const Tree& tree, const std::string& path, const std::vector<std::string>& keys,
               Axis& a) {
-    const Tree* list = need(tree, path, "values", "a list of values");
+    const Tree* list = require(tree, path, "values", "a list of values");
     if (!list) return;
     if (list->kind != Tree::Kind::list)
       return f.say(list->place, path + ".values", "found " + description(*list),
@@ -355,17 +379,16 @@ class Reading {
     std::set<std::string> seen;
     for (const AxisPoint& point : a.points)
       if (!seen.insert(point.label).second)
-        f.say(a.place, path, fmt::format("the value {} stands twice", point.label),
-              "each value once");
+        f.say(a.place, path, fmt::format("duplicate value {}", point.label), "each value once");
   }
 };
 
 }  // namespace
 
 bool is_safe_path(const std::string& path) {
-  return !path.empty() && std::all_of(path.begin(), path.end(), [](char c) {
-    return is_name(std::string(1, c)) || c == '.' || c == '/';
-  });
+  for (const char c : path)
+    if (!is_name(std::string(1, c)) && c != '.' && c != '/') return false;
+  return !path.empty();
 }
 
 const Node* Pipeline::node(const std::string& wanted) const {
@@ -375,9 +398,9 @@ const Node* Pipeline::node(const std::string& wanted) const {
 }
 
 Pipeline read_pipeline(const Tree& tree) {
-  Reading reading;
-  Pipeline p = reading.pipeline(tree);
-  if (!reading.f.errors.empty()) throw_sorted(std::move(reading.f.errors));
+  PipelineParser parser;
+  Pipeline p = parser.pipeline(tree);
+  if (!parser.f.errors.empty()) throw_sorted(std::move(parser.f.errors));
   return p;
 }
 

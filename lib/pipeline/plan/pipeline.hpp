@@ -1,5 +1,5 @@
-// A pipeline file as written: nodes, the stage each runs, where its inputs come from, and what is
-// varied.
+// A pipeline file as written: its nodes, the stage that each one runs, the inputs of each, and the
+// axes of sweeps.
 //
 //   pipeline: tensile_angles
 //   nodes:
@@ -11,17 +11,22 @@
 //     post:  {stage: post,  config: configs/post/tensile.yaml, solution: solve}
 //     table: {stage: gather, curves: post, over: [code, alpha]}
 //
-// An axis may also be a grid: {grid: {<key>: [values], <key>: [values]}}, all combinations of them,
-// labelled 0.25-10; or a design of experiments: {design: {parameters: [{key, lower, upper}],
-// morris: {trajectories: 6}}}; its points are numbered, and the node that gathers over it tells
-// effects (sweep/design.hpp). {samples: 100} are sets of parameters that the fit behind `material`
-// leaves open (the stage sample), and the node that gathers over it tells the spread. A variant is
-// a map of settings, or the path of a config in place of the node's. A port takes a node's name,
-// one member of it
-// ({node: fit, law: HGO-Yeoh}) or a file; one that takes several files also a list of those.
-// `config` is a file, or a map written in place, or absent (all defaults). Paths are relative to
-// the working directory. An axis that two nodes declare is one axis: its points must agree.
-// Refused: unknown keys, stages, ports and nodes; names that are not safe in file names and in
+// A node has an input file for each port of its stage. A port takes a node's name, one member of a
+// node ({node: fit, law: HGO-Yeoh}) or a file; a port for several files also takes a list of those.
+// `config` is a file, or a map in the pipeline itself, or absent (all defaults). Paths are relative
+// to the working directory.
+//
+// The kinds of axes:
+//   {key, values}       one key, or several keys with the same value
+//   {variants: {..}}    named settings; a variant is a map, or the path of another config
+//   {grid: {..}}        all combinations of the values of several keys; labels are like 0.25-10
+//   {design: {..}}      a design of experiments (Morris, Sobol'); the node that gathers over it
+//                       computes effects (sweep/design.hpp)
+//   {samples: 100}      sets of parameters drawn from the covariance of the fit behind `material`
+//                       (stage sample); the node that gathers over them computes the spread
+// If two nodes declare an axis of the same name, it is one axis, and its points must agree.
+//
+// Refused: unknown keys, stages, ports and nodes, and names that are not safe in file names and in
 // make.
 #pragma once
 
@@ -38,7 +43,7 @@ using Settings = std::vector<std::pair<std::string, Tree>>;  // key path -> valu
 
 struct AxisPoint {
   std::string label;  // "30", "FER"
-  Tree config;        // scalar: a file in place of the node's config
+  Tree config;        // scalar: a file that is used instead of the node's config
   Settings settings;
 };
 
@@ -46,16 +51,15 @@ struct Axis {
   std::string name, unit;
   bool numbers = false;  // all labels are numbers
   std::vector<AxisPoint> points;
-  Tree design;      // canonical, where the axis is one
-  int samples = 0;  // of what a fit leaves open
+  Tree design;      // canonical; empty unless the axis is a design
+  int samples = 0;  // number of samples of the fitted parameters; 0 for another axis
   Place place;
 };
 
 struct Source {
   std::string port;
-  std::string node, file;  // one of them
-  std::vector<std::pair<std::string, std::string>>
-      at;  // axis -> label: the member of the node that is meant
+  std::string node, file;                               // one of them
+  std::vector<std::pair<std::string, std::string>> at;  // axis -> label: one member of the node
   Place place;
 };
 
@@ -76,9 +80,9 @@ struct Pipeline {
   const Node* node(const std::string& name) const;
 };
 
-Pipeline read_pipeline(const Tree& tree);  // throws Failure(config) with all that is wrong
+Pipeline read_pipeline(const Tree& tree);  // throws Failure(config) with all errors
 
-// letters, digits, _ . + - /; anything else means something to make or to a shell
+// Only letters, digits, _ . + - and /: other characters have a meaning in make or in a shell.
 bool is_safe_path(const std::string& path);
 
 }  // namespace langer::pipeline

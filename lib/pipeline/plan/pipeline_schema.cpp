@@ -12,7 +12,10 @@ namespace {
 
 using namespace schema;
 
+// Names of nodes and axes: `include` is not a name but reads another file.
 constexpr const char* name_pattern = "^(?!include$)[A-Za-z0-9_+-]+$";
+
+// A map from names to items of one kind.
 
 Tree named(Tree one) {
   Tree t = object(
@@ -24,6 +27,7 @@ Tree described_by(const std::string& says, Tree t) {
   t.map.insert(t.map.begin(), {"description", word(says)});
   return t;
 }
+// A map with these keys only.
 Tree keys_of_map(std::vector<Tree::Entry> properties, const std::vector<std::string>& needed) {
   properties.push_back({"include", included()});
   Tree t = object({{"type", word("object")}, {"properties", object(std::move(properties))}});
@@ -37,45 +41,57 @@ Tree one_or_several(Tree one) {
   return object({{"anyOf", list({std::move(one), std::move(many)})}});
 }
 
-Tree axis(Definitions& definitions) {
-  const Member design{"design", unit::none, "a design of experiments", false, {}, {}, ""};
-  const Tree settings = type("object");
-  return object(
-      {{"anyOf",
-        list({keys_of_map(
-                  {{"variants", described_by("settings, or the path of a config, by name",
-                                             object({{"type", word("object")},
-                                                     {"additionalProperties",
-                                                      types({"object", "string", "null"})}}))}},
-                  {"variants"}),
-              keys_of_map(
-                  {{"grid", described_by(
-                                "all combinations of values, by the path of their key",
-                                object({{"type", word("object")},
-                                        {"additionalProperties", object({{"type", word("array")},
-                                                                         {"items", texts()}})}}))}},
-                  {"grid"}),
-              keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}},
-                          {"design"}),
-              keys_of_map(
-                  {{"samples",
-                    described_by(
-                        "how many sets of parameters that a fit leaves open, by their number: "
-                        "number of the stage sample",
-                        type("integer"))}},
-                  {"samples"}),
-              keys_of_map(
-                  {{"key", described_by("path of the key that varies, such as fibre_angles[0]",
-                                        one_or_several(type("string")))},
-                   {"keys", described_by("or several that get the same value",
-                                         one_or_several(type("string")))},
-                   {"values", described_by("its values", object({{"type", word("array")},
-                                                                 {"items", texts()},
-                                                                 {"minItems", plain_tree("1")}}))},
-                   {"unit", described_by("of the values, for tables", type("string"))}},
-                  {"values"})})}});
+// A map from any key to a value of one kind.
+Tree map_of(Tree value) {
+  return object({{"type", word("object")}, {"additionalProperties", std::move(value)}});
 }
 
+Tree array_of_texts() { return object({{"type", word("array")}, {"items", texts()}}); }
+
+Tree variants_axis() {
+  return keys_of_map({{"variants", described_by("settings, or the path of a config, by name",
+                                                map_of(types({"object", "string", "null"})))}},
+                     {"variants"});
+}
+
+Tree grid_axis() {
+  return keys_of_map({{"grid", described_by("all combinations of values, by the path of their key",
+                                            map_of(array_of_texts()))}},
+                     {"grid"});
+}
+
+Tree design_axis(Definitions& definitions) {
+  const Member design{"design", unit::none, "a design of experiments", false, {}, {}, ""};
+  return keys_of_map({{"design", described(of<Design>(design, true, definitions), design)}},
+                     {"design"});
+}
+
+Tree samples_axis() {
+  return keys_of_map(
+      {{"samples", described_by("number of samples of the fitted parameters; each has the key "
+                                "number of the stage sample",
+                                type("integer"))}},
+      {"samples"});
+}
+
+Tree values_axis() {
+  Tree values = array_of_texts();
+  values.map.push_back({"minItems", plain_tree("1")});
+  return keys_of_map(
+      {{"key", described_by("path of the key that varies, such as fibre_angles[0]",
+                            one_or_several(type("string")))},
+       {"keys", described_by("several keys with the same value", one_or_several(type("string")))},
+       {"values", described_by("its values", std::move(values))},
+       {"unit", described_by("of the values, for tables", type("string"))}},
+      {"values"});
+}
+
+Tree axis(Definitions& definitions) {
+  return object({{"anyOf", list({variants_axis(), grid_axis(), design_axis(definitions),
+                                 samples_axis(), values_axis()})}});
+}
+
+// A node of one stage, with the ports of that stage.
 Tree node(const StageSpec& stage) {
   std::vector<Tree::Entry> properties{
       {"stage", object({{"const", word(stage.name)}})},
@@ -87,11 +103,11 @@ Tree node(const StageSpec& stage) {
   std::vector<std::string> needed{"stage"};
   bool gathers = false;
   for (const Port& port : stage.inputs) {
-    const Tree one = object(
-        {{"anyOf", list({type("string"),
-                         object({{"type", word("object")}, {"required", words({"node"})}})})}});
+    const Tree member = object({{"type", word("object")}, {"required", words({"node"})}});
+    Tree source = object({{"anyOf", list({type("string"), member})}});
+    if (port.several) source = one_or_several(source);
     properties.push_back({port.name, described_by(fmt::format("a node or a file: {}", port.says),
-                                                  port.several ? one_or_several(one) : one)});
+                                                  std::move(source))});
     if (port.required) needed.push_back(port.name);
     gathers = gathers || port.several;
   }
@@ -112,7 +128,8 @@ std::string pipeline_schema() {
   for (const StageSpec& stage : stages()) {
     definitions[std::string("stage_") + stage.name] = node(stage);
     names.push_back(stage.name);
-    // messages of the one stage that is meant, not of all
+    // With if and then an editor shows the errors of the node's own stage. With anyOf it would show
+    // those of all stages.
     choices.list.push_back(object(
         {{"if",
           object({{"properties", object({{"stage", object({{"const", word(stage.name)}})}})}})},
@@ -126,7 +143,7 @@ std::string pipeline_schema() {
               {"allOf", std::move(choices)}});
   Tree root = keys_of_map(
       {{"pipeline",
-        described_by("its name: results lie in runs/<name>",
+        described_by("its name: results are in runs/<name>",
                      object({{"type", word("string")}, {"pattern", word(name_pattern)}}))},
        {"nodes", described_by("its steps by name", named(reference("node")))}},
       {"pipeline", "nodes"});

@@ -1,4 +1,5 @@
-// JSON Schema of a pipeline file, from the table of stages and their ports.
+// JSON Schema of a pipeline file, from the table of stages and their ports (ports.hpp). Editors use
+// it to complete keys and to show errors while a pipeline is written.
 #pragma once
 
 #include <string>

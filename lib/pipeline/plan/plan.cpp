@@ -39,6 +39,8 @@ struct TextFile {
   std::string text;
 };
 
+// Collects the files and the rules of a run, step by step. Errors of all steps are collected, and
+// thrown together by stop_if_wrong().
 class Planning {
  public:
   explicit Planning(fs::path folder) : folder_(std::move(folder)) {}
@@ -48,40 +50,39 @@ class Planning {
   std::vector<std::string> finals;
   std::vector<std::string> doubts;
 
-  void look_at_data() {
-    for (const auto& look : looks_) collect([&] { add_doubts(look()); });
+  // Reads the measured data of all fits. A plan alone does not need them, so only a check does.
+  void check_data() {
+    for (const auto& check : data_checks_) collect([&] { add_doubts(check()); });
   }
 
+  // Adds the rule of a step and its effective config.
   void add(const Step& step) {
     const std::string here = (folder_ / step.folder).string();
     const std::string config = step.folder + "/" + step.stage->name + ".yaml";
     Rule rule{step.output(), {config}, std::string("langer-") + step.stage->name, config};
     for (const StepInput& input : step.inputs) {
-      std::string path;
-      if (input.made) {
-        path = input.path;
-      } else {
-        path = given_file(step, input);
-      }
+      std::string path = input.path;
+      if (!input.made) path = given_file(step, input);
       rule.prerequisites.push_back(path);
       rule.arguments += fmt::format(" --{} {}", input.port, path);
     }
     collect([&] {
       std::vector<std::string> ports;
       for (const StepInput& input : step.inputs) ports.push_back(input.port);
-      need_one_source(*step.stage, step.config, ports);
+      require_one_source(*step.stage, step.config, ports);
       const Effective effective = effective_config(*step.stage, step.config, here);
       add_doubts(effective.notices);
       for (const Effective::File& file : effective.files) {
-        need_file(file.path, file.place, file.key);
+        require_file(file.path, file.place, file.key);
         rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
       }
-      if (effective.look_at_data) looks_.push_back(effective.look_at_data);
+      if (effective.check_data) data_checks_.push_back(effective.check_data);
       SceneNames& names = names_[rule.target] = effective.names;
       for (const StepInput& input : step.inputs) add_names(step, input, names);
-      if (const std::vector<Error> lost = lost_names(names); !lost.empty())
-        throw Failure(Exit::config, lost);
-      // the command stands in the config, so that a changed input is a changed config
+      if (const std::vector<Error> unknown = unknown_names(names); !unknown.empty())
+        throw Failure(Exit::config, unknown);
+      // The config contains the command. So a step with another input file has another config, and
+      // make repeats it.
       files.push_back(
           {config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
     });
@@ -97,60 +98,68 @@ class Planning {
 
  private:
   fs::path folder_;
-  std::vector<std::function<std::vector<std::string>()>> looks_;
+  std::vector<std::function<std::vector<std::string>()>> data_checks_;
   std::map<std::string, SceneNames> names_;  // of steps by output and of files by path
   std::vector<Error> errors_;
   Exit code_ = Exit::input;
 
-  // what is wrong with them is said elsewhere
+  // The largest number of threads that a config asks for. A wrong value counts as none; the check
+  // of the config reports it.
   static int threads_of(const Tree& config) {
     int most = 1;
-    for (const char* key : {"threads", "blas_threads", "jobs"})
-      if (const Tree* value = config.find(key); value && value->kind == Tree::Kind::scalar) {
-        int n = 0;
-        std::from_chars(value->scalar.data(), value->scalar.data() + value->scalar.size(), n);
-        most = std::max(most, n);
-      }
+    for (const char* key : {"threads", "blas_threads", "jobs"}) {
+      const Tree* value = config.find(key);
+      if (!value || value->kind != Tree::Kind::scalar) continue;
+      int n = 0;
+      std::from_chars(value->scalar.data(), value->scalar.data() + value->scalar.size(), n);
+      most = std::max(most, n);
+    }
     return most;
   }
 
   void add_doubts(const std::vector<std::string>& more) {
     for (const std::string& doubt : more)
-      if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(doubt);
+      if (std::ranges::find(doubts, doubt) == doubts.end()) doubts.push_back(doubt);
   }
 
-  // What an input has of names, made by a step before or given as a file.
+  // Whether the names of this input matter to the step: mesh and material of a solve, the solution
+  // of a post.
+  static bool defines_names(const Step& step, const std::string& port) {
+    const std::string stage = step.stage->name;
+    if (stage == "solve") return port == "mesh" || port == "material";
+    return stage == "post" && port == "solution";
+  }
+
+  // Adds the names that an input defines; it was made by an earlier step, or is given as a file.
   void add_names(const Step& step, const StepInput& input, SceneNames& names) {
     const std::string port = input.port;
-    const std::string made_by = step.stage->name;
-    if ((made_by != "solve" || (port != "mesh" && port != "material")) &&
-        (made_by != "post" || port != "solution"))
-      return;
-    const SceneNames& there = input.made ? names_[input.path] : names_in_file(port, input.path);
-    if (port != "material" && !names.mesh) names.mesh = there.mesh;
-    if (port != "mesh" && !names.families) names.families = there.families;
+    if (!defines_names(step, port)) return;
+    if (!input.made) read_names(port, input.path);
+    const SceneNames& defined = names_[input.made ? input.path : "file " + input.path];
+    if (port != "material" && !names.mesh) names.mesh = defined.mesh;
+    if (port != "mesh" && !names.families) names.families = defined.families;
     if (port == "solution") {
-      names.more_families = there.more_families;
-      names.contacts = there.contacts;
+      names.more_families = defined.more_families;
+      names.contacts = defined.contacts;
     }
   }
 
-  const SceneNames& names_in_file(const std::string& port, const std::string& path) {
+  // Reads the names that a file defines, once. An unreadable file defines none; its error is
+  // reported by given_file().
+  void read_names(const std::string& port, const std::string& path) {
     const auto [known, is_new] = names_.emplace("file " + path, SceneNames{});
     std::error_code ec;
-    if (!is_new || !fs::is_regular_file(path, ec)) return known->second;
+    if (!is_new || !fs::is_regular_file(path, ec)) return;
+    const Port material_port{.name = "material", .says = "", .made_by = {}};
     try {
       if (fs::path(path).extension() != ".h5" && port == "material")
-        known->second = effective_port_file({.name = "material", .says = "", .made_by = {}},
-                                            load_yaml(path), "")
-                            .names;
+        known->second = effective_port_file(material_port, load_yaml(path), "").names;
       else if (port == "mesh")
         known->second.mesh = names_of(read_mesh(path).mesh);
       else if (port == "material")
         known->second = names_in(read_material(path).material);
-    } catch (const Failure&) {  // said where the file itself is looked at
+    } catch (const Failure&) {
     }
-    return known->second;
   }
 
   // Members of a sweep share most of their config: each error is kept once.
@@ -159,13 +168,17 @@ class Planning {
       work();
     } catch (const Failure& failure) {
       if (failure.code() != Exit::input) code_ = failure.code();
-      for (const Error& e : failure.errors())
-        if (std::none_of(errors_.begin(), errors_.end(),
-                         [&](const Error& known) { return text(known) == text(e); }))
-          errors_.push_back(e);
+      for (const Error& e : failure.errors()) add_error(e);
     }
   }
 
+  void add_error(const Error& e) {
+    for (const Error& known : errors_)
+      if (text(known) == text(e)) return;
+    errors_.push_back(e);
+  }
+
+  // A path as seen from the run's folder.
   std::string from_run(const std::string& path, const Place& place, const std::string& key) const {
     const std::string seen = relative_path(path, folder_.string());
     if (!is_safe_path(seen))
@@ -175,13 +188,13 @@ class Planning {
     return seen;
   }
 
-  // A file that the pipeline names at a port: HDF5 as it is, YAML as a canonical copy beside the
-  // step's config.
+  // A file that the pipeline names at a port. HDF5 is used as it is; YAML is copied in canonical
+  // form next to the step's config, so that comments repeat nothing.
   std::string given_file(const Step& step, const StepInput& input) {
     const std::string key = fmt::format("nodes.{}.{}", step.node, input.port);
     std::string path;
     collect([&] {
-      need_file(input.path, input.place, key);
+      require_file(input.path, input.place, key);
       const std::string extension = fs::path(input.path).extension().string();
       if (extension == ".h5") {
         path = from_run(input.path, input.place, key);
@@ -189,7 +202,8 @@ class Planning {
       }
       const Port& port = *step.stage->port(input.port);
       if (!port.takes_yaml || (extension != ".yaml" && extension != ".yml")) {
-        const char* expected = port.takes_yaml ? "a .h5 or a .yaml file" : "a .h5 file";
+        std::string expected = "a .h5 file";
+        if (port.takes_yaml) expected = "a .h5 or a .yaml file";
         throw Failure(Exit::config, Error{input.place, key, "found " + input.path, expected, ""});
       }
       path = fmt::format("{}/{}.yaml", step.folder, input.port);
@@ -202,25 +216,25 @@ class Planning {
   }
 };
 
-bool holds(const fs::path& path, const std::string& text) {
+// Whether a file has exactly this text.
+bool has_text(const fs::path& path, const std::string& text) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream found;
   found << file.rdbuf();
   return file.good() && found.str() == text;
 }
 
-// Writes <folder>/<file> unless it holds the text already. The folder is the run's, and `file` may
-// name folders below it.
+// Writes <folder>/<file> unless it has this text already. `file` may name folders below the run's.
 bool write_if_changed(const fs::path& folder, const std::string& file, const std::string& text) {
   const fs::path path = folder / file;
   make_folder_below(folder.string(), path.parent_path().string());
-  require_replaceable(path.string());
-  if (holds(path, text)) return false;
+  need_replaceable(path.string());
+  if (has_text(path, text)) return false;
   write_text_file_soon(path.string(), text);
   return true;
 }
 
-// The names stand in comments of the Makefile, where a line break would begin a rule.
+// The names are in comments of the Makefile, where a line break would begin a rule.
 void refuse_control_characters(const std::string& name, const char* what) {
   if (!has_control(name)) return;
   throw Failure(Exit::input, Error{{name},
@@ -230,12 +244,8 @@ void refuse_control_characters(const std::string& name, const char* what) {
                                    "rename it: it becomes a line of the Makefile"});
 }
 
-}  // namespace
-
-namespace {
-
-// A folder of programs may be called anything; a blank has to be told to make, and to the shell, as
-// such.
+// The folder of the programs as it is written in the Makefile. It may have any name, but a blank
+// needs a backslash in make and in the shell, and some characters cannot be escaped in both.
 std::string as_make_reads(const std::string& folder) {
   std::string seen;
   for (const char c : folder) {
@@ -245,14 +255,11 @@ std::string as_make_reads(const std::string& folder) {
       throw Failure(Exit::input,
                     Error{{folder},
                           "",
-                          fmt::format("the programs lie in a folder with {} in its name", c),
+                          fmt::format("the programs are in a folder with {} in its name", c),
                           "letters, digits, blanks, / . _ - + , = @ ~",
-                          "make gives it a meaning: put them elsewhere"});
-    if (c == ' ') {
-      seen += "\\ ";
-    } else {
-      seen += std::string(1, c);
-    }
+                          "make gives it a meaning: move the programs to another folder"});
+    if (c == ' ') seen += '\\';
+    seen += c;
   }
   return seen;
 }
@@ -264,7 +271,8 @@ struct Planned {
   std::vector<Step> steps;
 };
 
-// siblings: array jobs of one node start together, and none waits for another
+// Reads and checks a pipeline. siblings: a member may wait for another one whose mirror image it is
+// (siblings.hpp); not with Slurm, where the jobs of a node start together.
 Planned planned(const std::string& pipeline_file, std::string folder, const Overrides& overrides,
                 bool siblings, bool with_data = false) {
   refuse_control_characters(pipeline_file, "pipeline's file");
@@ -279,7 +287,7 @@ Planned planned(const std::string& pipeline_file, std::string folder, const Over
   Planned p{
       Planning(folder), {folder, written.nodes.size(), steps.size(), 0, {}}, written.name, steps};
   for (const Step& step : p.steps) p.planning.add(step);
-  if (with_data) p.planning.look_at_data();
+  if (with_data) p.planning.check_data();
   p.planning.stop_if_wrong();
   p.report.doubts = p.planning.doubts;
   return p;

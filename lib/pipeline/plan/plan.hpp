@@ -1,7 +1,9 @@
-// Plans a run: reads the pipeline, checks every config that it names, then writes effective configs
-// and a Makefile. Nothing is written unless everything is right. A file is rewritten only if its
-// text changes, so make reruns exactly what depends on a changed value; comments and the order of
-// keys change nothing.
+// Plans a run: reads the pipeline, checks every config that it names, then writes the effective
+// configs and a Makefile.
+//
+// Nothing is written unless everything is right. A file is rewritten only if its text changes, so
+// make repeats exactly the steps that depend on a changed value. Comments and the order of keys do
+// not change the effective config, so they repeat nothing.
 #pragma once
 
 #include <string>
@@ -13,14 +15,15 @@ namespace langer {
 
 struct PlanReport {
   std::string folder;
-  std::size_t nodes = 0, steps = 0,
-              changed = 0;  // changed: files written because their text is new
-  // keys and words by their former names, each once; what looks wrong in measured data, which
-  // check_pipeline() alone reads
+  std::size_t nodes = 0;
+  std::size_t steps = 0;
+  std::size_t changed = 0;  // files that were written because their text is new
+  // Warnings, each once: former names of keys, and of check_pipeline() also doubts about measured
+  // data.
   std::vector<std::string> doubts;
 };
 
-// What is written beside the Makefile.
+// What is written in addition to the Makefile.
 struct PlanFor {
   bool slurm = false;      // scripts for Slurm (pipeline/slurm.hpp)
   bool snakemake = false;  // a Snakefile (pipeline/snakefile.hpp)

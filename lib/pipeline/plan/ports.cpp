@@ -4,19 +4,20 @@ namespace langer {
 
 namespace {
 
+// A stage: name, first sentence of --help, input ports, main output file.
 const StageSpec mesh_stage{
     "mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
 const StageSpec fit_stage{
     "fit",
     "Finds material parameters from a measured curve.",
     {{.name = "curves",
-      .says = "what was measured in a scene, of the items of data without a file, in their order",
+      .says = "measured curves of scenes, for the items of data without a file, in their order",
       .made_by = {"post"},
       .required = false,
       .several = true}},
     "material.h5"};
 const StageSpec sample_stage{"sample",
-                             "Takes one of the sets of parameters that a fit leaves open.",
+                             "Draws one sample of the parameters from the covariance of a fit.",
                              {{.name = "material", .says = "the fit", .made_by = {"fit"}}},
                              "material.h5"};
 const StageSpec sensitivity_stage{"sensitivity",
@@ -41,7 +42,7 @@ const StageSpec solve_stage{
       .or_key = true,
       .takes_yaml = true},
      {.name = "mirror",
-      .says = "a solution with other fibre angles, copied where this scene is its image",
+      .says = "a solution with other fibre angles, copied if this scene is its mirror image",
       .made_by = {"solve"},
       .required = false}},
     "solution.h5",
@@ -52,8 +53,8 @@ const StageSpec post_stage{
     {{.name = "solution", .says = "steps of a load path", .made_by = {"solve"}}},
     "curves.h5",
     false,
-    "instead of all else write the solved scene for another program: scene.inp for CalculiX, scene.feb for FEBio 4; may be repeated, "
-    "and wants --solution only"};
+    "only writes the solved scene for another program: scene.inp for CalculiX, scene.feb for "
+    "FEBio 4; may be repeated, and needs --solution only"};
 const StageSpec gather_stage{"gather",
                              "Collects one quantity or several over a sweep.",
                              {{.name = "curves",
@@ -62,7 +63,7 @@ const StageSpec gather_stage{"gather",
                                .several = true,
                                .members = true},
                               {.name = "material",
-                               .says = "of a sweep over {samples: 100} the fit that has them",
+                               .says = "the fit, for a sweep over {samples: 100}",
                                .made_by = {"fit"},
                                .required = false}},
                              "sweep.h5"};
@@ -81,7 +82,7 @@ const StageSpec report_stage{
       .required = false,
       .several = true},
      {.name = "solution",
-      .says = "a body to look at",
+      .says = "a solution, shown as a deformed body",
       .made_by = {"solve"},
       .required = false,
       .several = true},
@@ -98,7 +99,8 @@ const StageSpec report_stage{
     "report.html"};
 const StageSpec tune_stage{
     "tune",
-    "Draws the work-precision diagram of a refinement study: which settings give the least error for their cost.",
+    "Draws the work-precision diagram of a refinement study: which settings give the smallest error "
+    "for their cost.",
     {{.name = "curves",
       .says = "one level of the study: curves of its solution",
       .made_by = {"post"},

@@ -1,5 +1,5 @@
-// Which inputs and which output each stage has: the single table used by the programs' arguments,
-// by plan and by the docs.
+// The stages, and the input and output files of each. This one table is used by the arguments of
+// the programs, by plan, by the JSON Schema of pipelines and by the docs.
 #pragma once
 
 #include <string>
@@ -9,15 +9,14 @@ namespace langer {
 
 struct Port {
   const char* name;
-  const char* says;                  // what the file holds
+  const char* says;                  // what the file contains
   std::vector<std::string> made_by;  // stages whose main output it takes
   bool required = true;
-  bool or_key = false;   // a key of this name in the config may stand in for the file; one of the
-                         // two must be there
-  bool several = false;  // --port may be repeated; the order counts
+  bool or_key = false;      // the file, or a key of this name in the config: exactly one of the two
+  bool several = false;     // --port may be repeated; the order counts
   bool takes_yaml = false;  // the file may be written by hand, as YAML
-  bool members =
-      false;  // the config's keys axes and members say what each file is; written by plan
+  // The keys `axes` and `members` of the config describe the files. They are written by plan.
+  bool members = false;
 };
 
 struct StageSpec {
@@ -25,8 +24,8 @@ struct StageSpec {
   const char* sentence;  // first line of --help
   std::vector<Port> inputs;
   const char* output;        // name of the main output file in the node's folder
-  bool forecasts = false;    // knows --dry-run
-  const char* exports = "";  // knows --export, which says this
+  bool forecasts = false;    // --dry-run estimates time and memory
+  const char* exports = "";  // help of --export; empty: the stage does not have it
 
   const Port* port(const std::string& name) const;
 };

@@ -25,25 +25,24 @@ namespace {
 
 }  // namespace
 
-void need_file(const std::string& path, const Place& named_at, const std::string& key) {
+void require_file(const std::string& path, const Place& named_at, const std::string& key) {
   const std::string reason = unreadable_reason(path);
   if (reason.empty()) return;
   if (key.empty()) refuse(path, reason);
   throw Failure(Exit::input, Error{named_at, key, path + ": " + reason, "", ""});
 }
 
-void need_one_source(const StageSpec& stage, const Tree& config,
-                     const std::vector<std::string>& ports_given) {
+// A config may have one material for the scene (`material`), or one for each body (`materials`).
+void require_one_source(const StageSpec& stage, const Tree& config,
+                        const std::vector<std::string>& ports_given) {
   for (const Port& port : stage.inputs) {
     if (!port.or_key) continue;
     const Tree* key = config.find(port.name);
-    const bool given =
-        std::find(ports_given.begin(), ports_given.end(), port.name) != ports_given.end();
+    const bool given = std::ranges::find(ports_given, port.name) != ports_given.end();
     if (key && given)
       throw Failure(Exit::config,
                     Error{key->place, port.name, "given here and as a file", "one of the two", ""});
-    const bool one_each =
-        config.find(std::string(port.name) + "s") != nullptr;  // materials: one for each body
+    const bool one_each = config.find(std::string(port.name) + "s") != nullptr;
     if (!key && !given && !one_each)
       throw Failure(Exit::config,
                     Error{config.place, port.name, "missing",
@@ -51,7 +50,7 @@ void need_one_source(const StageSpec& stage, const Tree& config,
   }
 }
 
-void need_output(const std::string& output, const std::string& config, const InputFiles& inputs) {
+void check_output(const std::string& output, const std::string& config, const InputFiles& inputs) {
   std::error_code ec;
   if (fs::is_directory(output, ec))
     refuse(output, "the output is a folder", "-o names the main output file");
@@ -60,14 +59,16 @@ void need_output(const std::string& output, const std::string& config, const Inp
     sources.insert(sources.end(), files.begin(), files.end());
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
-  require_own_output(output);
-  for (const char* beside : {".part", ".steps", ".lock"}) require_replaceable(output + beside);
-  const fs::path folder =
-      fs::path(output).has_parent_path() ? fs::path(output).parent_path() : fs::path(".");
+  need_own_output(output);
+  for (const char* suffix : {".part", ".steps", ".lock"}) need_replaceable(output + suffix);
+  fs::path folder = fs::path(output).parent_path();
+  if (folder.empty()) folder = ".";
   fs::create_directories(folder, ec);
-  if (!fs::is_directory(folder))
-    refuse(folder.string(),
-           "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()));
+  if (!fs::is_directory(folder)) {
+    std::string reason;
+    if (ec) reason = ": " + ec.message();
+    refuse(folder.string(), "this folder cannot be made" + reason);
+  }
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     refuse(folder.string(), "this folder cannot be written to");
 }
@@ -98,10 +99,13 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
                      const InputFiles& inputs, const std::string& command) {
   Identity identity{stage, config.full, fnv1a(config.hashed), {}, command};
   for (const auto& [port, files] : inputs)
-    for (std::size_t i = 0; i < files.size(); ++i)
-      identity.inputs[files.size() == 1 ? port : item(port, i)] = content_of(files[i]);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      std::string name = port;
+      if (files.size() > 1) name = item(port, i);
+      identity.inputs[name] = content_of(files[i]);
+    }
   for (const NamedFile& file : config.files) {
-    need_file(file.path, where(file.key), file.key);
+    require_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);
     never_replace(file.path);
     const std::vector<std::string> included = files_included_by(file.path);
@@ -116,9 +120,11 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
 std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
   std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage,
                               identity.config_hash);
-  for (const Summary& r : results)
-    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit),
-                     std::isfinite(r.value) ? number_text(r.value) : "null");
+  for (const Summary& r : results) {
+    std::string value = "null";
+    if (std::isfinite(r.value)) value = number_text(r.value);
+    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), value);
+  }
   return s + "}\n";
 }
 

@@ -1,5 +1,8 @@
-// What a run does with its files before and after the work: inputs are there, the output can be
-// written, who made what.
+// The files of a run of a stage: checks that the inputs exist and that the output can be written
+// without loss, the identity of the run, and its JSON summary.
+//
+// The identity (results/store/identity.hpp) is a hash of the effective config and of the content of
+// every input file. Two runs with the same identity compute the same thing.
 #pragma once
 
 #include <map>
@@ -16,39 +19,42 @@
 
 namespace langer {
 
-using InputFiles =
-    std::map<std::string, std::vector<std::string>>;  // port -> files in the order given
+// The files at each port, in the order given.
+using InputFiles = std::map<std::string, std::vector<std::string>>;
 
-void need_file(const std::string& path, const Place& named_at = {},
-               const std::string& key = "");  // throws Failure(input)
+// Throws Failure(input) if a file cannot be read. The message names the key that the file is the
+// value of.
+void require_file(const std::string& path, const Place& named_at = {}, const std::string& key = "");
 
-// What a config may hold in place of a file at a port: refuses both and neither.
-void need_one_source(const StageSpec& stage, const Tree& config,
-                     const std::vector<std::string>& ports_given);
+// Some inputs may be a file at a port or a key of the config; refuses both and neither.
+void require_one_source(const StageSpec& stage, const Tree& config,
+                        const std::vector<std::string>& ports_given);
 
-// Makes the folder of an output file; throws Failure(input) where it cannot be written, or would
-// replace an input or what is not ours.
-void need_output(const std::string& output, const std::string& config, const InputFiles& inputs);
+// Makes the folder of an output file. Throws Failure(input) if the file cannot be written, or would
+// replace an input or a file that no program of Langer made.
+void check_output(const std::string& output, const std::string& config, const InputFiles& inputs);
 
-std::set<std::string> files_of(
-    const Tree& tree);  // that its parts were read from: the config itself and what it includes
+// The files that a config was read from: itself and the files that it includes.
+std::set<std::string> files_of(const Tree& tree);
 
-// Files that a file reads itself: those that *INCLUDE names in an .inp, in all depths. Throws
-// Failure(input) where one of them cannot be read.
+// The files that a mesh file (.inp) includes by *INCLUDE, in all depths. Throws Failure(input) if
+// one of them cannot be read.
 std::vector<std::string> files_included_by(const std::string& path);
 
 // Content id of an input: from the root attributes of an HDF5 file, from the values (not the
 // comments) of a YAML file, from the bytes of any other file.
 std::string content_of(const std::string& path);
 
-// Reads what the config names. Throws Failure(input) where such a file is missing.
+// The identity of a run. Reads all files that the config names; throws Failure(input) if one of
+// them is missing.
 Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
                      const InputFiles& inputs, const std::string& command);
 
-// one JSON object: stage, config_hash and the results by column name (null where not finite)
+// One JSON object: stage, config_hash and the results by column name. A result that is not finite
+// is null.
 std::string json_text(const Identity& identity, const std::vector<Summary>& results);
 
-// "key=value" of the command line, applied to a config that was read from a file
+// Applies "key=value" of the command line to a config that was read from a file.
 void apply_setting(Tree& config, const std::string& setting);
 
 }  // namespace langer

@@ -20,17 +20,21 @@ bool is_word(const Tree& config, const char* key, const char* word) {
   return value && value->kind == Tree::Kind::scalar && value->scalar == word;
 }
 
-bool may_be_an_image(const Step& step) {
-  if (!step.stage->port(port) || is_word(step.config, "symmetry", "none")) return false;
-  const Tree* estimate = step.config.find("estimate");
-  return !step.config.find("accuracy") && !step.config.find("fidelity") &&
-         !is_word(step.config, "reduce", "auto") &&
-         (!estimate || is_word(step.config, "estimate", "none")) &&
-         std::none_of(step.inputs.begin(), step.inputs.end(),
-                      [](const StepInput& input) { return input.port == port; });
+// Whether the pipeline gives a solution at the port `mirror` already.
+bool has_mirror(const Step& step) {
+  return std::ranges::find(step.inputs, port, &StepInput::port) != step.inputs.end();
 }
 
-// of the fibres, of which a and -a are the same: [0, 180) degrees; empty where they are none
+// Whether the solution of a step may be the image of another one; see siblings.hpp.
+bool may_be_an_image(const Step& step) {
+  if (!step.stage->port(port) || has_mirror(step)) return false;
+  if (is_word(step.config, "symmetry", "none") || is_word(step.config, "reduce", "auto"))
+    return false;
+  if (step.config.find("accuracy") || step.config.find("fidelity")) return false;
+  return !step.config.find("estimate") || is_word(step.config, "estimate", "none");
+}
+
+// The fibre angles of a step in degrees; empty if one of them is not a number.
 std::vector<double> angles_of(const Step& step) {
   const Tree* list = step.config.find("fibre_angles");
   std::vector<double> angles;
@@ -45,35 +49,37 @@ std::vector<double> angles_of(const Step& step) {
   return angles;
 }
 
-// families may change places
-bool same_lines(const std::vector<double>& a, std::vector<double> b) {
+// Whether two sets of fibre families have the same directions, which count modulo 180 degrees. The
+// families may be in another order.
+bool same_directions(const std::vector<double>& a, std::vector<double> b) {
   for (double angle : a) {
-    const auto found = std::find_if(b.begin(), b.end(), [&](double other) {
-      return std::abs(std::remainder(angle - other, 180)) < 1e-9;
-    });
+    const auto found = std::ranges::find_if(
+        b, [&](double other) { return std::abs(std::remainder(angle - other, 180)) < 1e-9; });
     if (found == b.end()) return false;
     b.erase(found);
   }
   return b.empty();
 }
 
-bool by_operation(const std::vector<double>& a, const std::vector<double>& b, double sign,
-                  double more) {
-  std::vector<double> turned;
-  for (double angle : a) turned.push_back(sign * angle + more);
-  return same_lines(turned, b);
+// Whether angle -> sign angle + offset carries the directions a to the directions b.
+bool related(const std::vector<double>& a, const std::vector<double>& b, double sign,
+             double offset) {
+  std::vector<double> image;
+  for (double angle : a) image.push_back(sign * angle + offset);
+  return same_directions(image, b);
 }
 
 bool mirrored(const std::vector<double>& a, const std::vector<double>& b) {
-  return by_operation(a, b, 1, 0) || by_operation(a, b, -1, 180);
+  return related(a, b, 1, 0) || related(a, b, -1, 180);
 }
 
 bool turned(const std::vector<double>& a, const std::vector<double>& b) {
-  return by_operation(a, b, 1, 90) || by_operation(a, b, -1, 90);
+  return related(a, b, 1, 90) || related(a, b, -1, 90);
 }
 
-// what members that may be images have in common
-std::string all_but_angles(const Step& step) {
+// Node, config and inputs of a step without its fibre angles. Members that may be images have the
+// same text.
+std::string text_without_angles(const Step& step) {
   Tree config = step.config;
   std::erase_if(config.map, [](const Tree::Entry& entry) { return entry.key == "fibre_angles"; });
   std::string text = step.node + "\n" + to_text(config);
@@ -93,16 +99,16 @@ void offer_siblings(std::vector<Step>& steps) {
     if (!may_be_an_image(step)) continue;
     const Member own{angles_of(step), step.output()};
     if (own.angles.empty()) continue;
-    std::vector<Member>& alike = earlier[all_but_angles(step)];
-    const auto of = [&](auto&& related) {
-      return std::find_if(alike.begin(), alike.end(),
-                          [&](const Member& other) { return related(other.angles, own.angles); });
+    std::vector<Member>& candidates = earlier[text_without_angles(step)];
+    const auto first_related = [&](auto&& relation) {
+      return std::ranges::find_if(
+          candidates, [&](const Member& other) { return relation(other.angles, own.angles); });
     };
-    auto sibling = of(mirrored);
-    if (sibling == alike.end()) sibling = of(turned);
-    if (sibling != alike.end())
+    auto sibling = first_related(mirrored);
+    if (sibling == candidates.end()) sibling = first_related(turned);
+    if (sibling != candidates.end())
       step.inputs.push_back({port, sibling->output, true, step.config.place});
-    alike.push_back(own);
+    candidates.push_back(own);
   }
 }
 

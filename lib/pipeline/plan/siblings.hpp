@@ -1,11 +1,15 @@
-// Members of a sweep over fibre angles that may be images of each other: alpha and 180 - alpha in a
-// mirror, alpha and 90 - alpha on a square body under a round indenter. Geometry is not known here:
-// the later one gets the earlier one's solution at its port `mirror`, and langer-solve copies it
-// where the scenes are images, or solves (mirror/mirror.hpp).
-//   offered   where configs and inputs differ in fibre_angles alone, symmetry is not none, and cells or errors are not the member's own
-//             (accuracy, fidelity, reduce, estimate)
-// One is offered at most: by alpha and 180 - alpha before 90 degrees more or less, as fewer scenes
-// have that symmetry.
+// Members of a sweep over fibre angles that may be mirror images of each other.
+//
+// With the angles alpha and 180 - alpha two scenes are images in a mirror; with alpha and
+// 90 - alpha they are images if the body is square and the indenter round. One of them need not be
+// solved. Plan does not know the geometry, so it only offers the solution of the earlier member to
+// the later one, at its port `mirror`. langer-solve copies that solution if the scenes are images,
+// and solves otherwise (mirror/mirror.hpp).
+//
+// A solution is offered if configs and inputs differ in fibre_angles only, symmetry is not none,
+// and the mesh and the errors do not depend on the member (no accuracy, fidelity, reduce,
+// estimate). At most one is offered: one with 180 - alpha before one with 90 - alpha, because more
+// scenes have that symmetry.
 #pragma once
 
 #include <vector>

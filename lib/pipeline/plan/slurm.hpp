@@ -1,9 +1,9 @@
-// Steps -> scripts for Slurm, for a login node without an allocation. Pure.
+// Scripts that send the steps of a run to Slurm, from a login node without an allocation.
 //   slurm/<node>.steps    one line per member: its output, then the outputs that it reads
-//   slurm/<node>.sbatch   makes one of them through the run's Makefile: what is up to date ends at once
-//   slurm/submit          sends one job, or one array of jobs, per node; a node waits for those that it reads
-// A member that fails holds up only those that read it: they say so and end. A requeued member goes
-// on where it stopped.
+//   slurm/<node>.sbatch   makes one of them through the run's Makefile, unless it is up to date
+//   slurm/submit          sends one job, or one array of jobs, per node; a node waits for its inputs
+// A member that fails stops only the members that read its output: they report it and end. A
+// requeued member continues where it stopped.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
-// Rules -> the text of a Snakefile, one file for the whole pipeline, beside the Makefile and with
-// the same commands, so that the results are the same to the last byte. Pure. All paths are
-// relative to its folder.
+// The text of a Snakefile for the whole pipeline. It has the same commands as the Makefile, so the
+// results are the same to the last byte. All paths are relative to its folder.
 //   snakemake --cores 4                              or, from elsewhere, -d runs/x -s runs/x/Snakefile
-//   snakemake --cores 4 --config launch="srun -n1"   put before every command; bin=...: folder of the programs
+//   snakemake --cores 4 --config launch="srun -n1"   text before every command; bin=...: folder of
+//                                                    the programs
 #pragma once
 
 #include <string>
