@@ -9,6 +9,7 @@ namespace langer {
 
 namespace {
 
+// Base value and bounds of each parameter.
 struct Box {
   VecX value, lower, upper;
   explicit Box(const Design& design) {
@@ -25,6 +26,8 @@ struct Box {
   }
 };
 
+// Runs all methods of a design on a function phi of the parameters. The results of
+// one_at_a_time() are per unit of the parameter, so they are multiplied by the ranges.
 QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   const Box box(design);
   QuantityEffects e;
@@ -40,8 +43,10 @@ QuantityEffects effects(const Design& design, const ParametricCurve& phi) {
   if (design.morris)
     e.morris = morris(maker, box.lower, box.upper, design.morris->trajectories,
                       design.morris->levels, options);
-  if (design.sobol) options.sequence = design.sobol->sequence;
-  if (design.sobol) e.sobol = sobol(maker, box.lower, box.upper, design.sobol->samples, options);
+  if (design.sobol) {
+    options.sequence = design.sobol->sequence;
+    e.sobol = sobol(maker, box.lower, box.upper, design.sobol->samples, options);
+  }
   if (e.one_at_a_time && e.one_at_a_time->complete)
     for (MatX* A : {&e.one_at_a_time->mu_star, &e.one_at_a_time->s, &e.one_at_a_time->spread})
       *A = (box.upper - box.lower).asDiagonal() * *A;
@@ -80,6 +85,7 @@ std::vector<Complaint> Design::complaints() const {
   return all;
 }
 
+// The last part of the key without brackets: fibre_angles[0] is fibre_angles0.
 std::string short_name(const DesignParameter& p) {
   if (!p.name.empty()) return p.name;
   std::string name;
@@ -91,9 +97,9 @@ std::string short_name(const DesignParameter& p) {
 std::vector<VecX> design_points(const Design& design) {
   std::vector<VecX> points;
   std::map<std::vector<double>, bool> seen;
-  Design asking = design;
-  asking.resamples = 0;
-  effects(asking, [&](const VecX& p, VecX& y) {
+  Design recorded = design;
+  recorded.resamples = 0;
+  effects(recorded, [&](const VecX& p, VecX& y) {
     if (!std::exchange(seen[list(p)], true)) points.push_back(p);
     y = VecX::Zero(1);
     return true;
@@ -104,10 +110,10 @@ std::vector<VecX> design_points(const Design& design) {
 QuantityEffects effects_of(const Design& design, const std::string& name, const std::string& unit,
                            const std::vector<double>& values) {
   const std::vector<VecX> points = design_points(design);
-  std::map<std::vector<double>, double> answers;
-  for (std::size_t i = 0; i < points.size(); ++i) answers[list(points[i])] = values.at(i);
+  std::map<std::vector<double>, double> results;
+  for (std::size_t i = 0; i < points.size(); ++i) results[list(points[i])] = values.at(i);
   QuantityEffects e = effects(design, [&](const VecX& p, VecX& y) {
-    y = VecX::Constant(1, answers.at(list(p)));
+    y = VecX::Constant(1, results.at(list(p)));
     return true;
   });
   e.name = name;

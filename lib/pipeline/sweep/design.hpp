@@ -1,14 +1,15 @@
-// A design of experiments on whole runs: which values of a few keys a sweep takes, so that
-// one-at-a-time effects, Morris' trajectories or Sobol's shares of any collected quantity can be
-// told from its members.
+// A design of experiments on whole runs: the values of a few keys in a sweep are chosen so that the
+// effect of each key on any collected quantity can be computed from the members.
 //   sweep:
 //     sample:
 //       design:
 //         parameters: [{key: "material.fibres[0].hgo.c1", lower: -0.4, upper: -0.2, unit: MPa}, ...]
 //         morris: {trajectories: 6, levels: 4}
-// The points are those at which the methods of lib/sensitivity ask for their curve, each once: what
-// they ask does not depend on the answers, so the same methods, given the members' values, make the
-// effects.
+// The methods are those of lib/identification/sensitivity: one at a time, Morris' elementary
+// effects [M91], Sobol' indices [S10]. They evaluate a function at points that do not depend on its
+// values. So they run twice: first on a function that only records the points, which become the
+// members of the sweep; then, when the members are solved, on the function that returns their
+// results.
 #pragma once
 
 #include <optional>
@@ -29,12 +30,13 @@ struct DesignParameter {
   static void fields(auto& v) {
     v(&DesignParameter::key, "key", unit::none,
       "path of the key that varies, such as fibre_angles[0]", required);
-    v(&DesignParameter::name, "name", unit::none, "in tables; by default the last word of the key");
+    v(&DesignParameter::name, "name", unit::none,
+      "name in tables; by default the last word of the key");
     v(&DesignParameter::unit, "unit", unit::none, "of the value, for tables");
     v(&DesignParameter::lower, "lower", unit::none, "lower bound", required);
     v(&DesignParameter::upper, "upper", unit::none, "upper bound", required);
     v(&DesignParameter::value, "value", unit::none,
-      "where it stays while others move one at a time; by default the middle");
+      "value while other parameters vary one at a time; by default the middle of the bounds");
   }
 };
 
@@ -56,11 +58,11 @@ struct Design {
   static void fields(auto& v) {
     v(&Design::parameters, "parameters", unit::none, "what varies, all of one node", required);
     v(&Design::one_at_a_time, "one_at_a_time", unit::none,
-      "the paper's way: one moves, the others stay");
+      "the paper's method: one parameter varies, the others are constant");
     v(&Design::morris, "morris", unit::none,
-      "trajectories (k + 1) members, places that come again counted once");
+      "trajectories (k + 1) members; repeated points are solved once");
     v(&Design::sobol, "sobol", unit::none, "samples (k + 2) + 1 members");
-    v(&Design::seed, "seed", unit::none, "of the random places", at_least(0));
+    v(&Design::seed, "seed", unit::none, "of the random points", at_least(0));
     v(&Design::resamples, "resamples", unit::none, "of the bootstrap behind each 95 % interval",
       between(50, 100000));
     v(&Design::figures, "figures", unit::none, "draw the effects on each quantity");
@@ -70,11 +72,12 @@ struct Design {
 
 std::string short_name(const DesignParameter& p);
 
-// members of the sweep in order, one value for each parameter
+// The points of the design, which are the members of the sweep in order. A point has one value for
+// each parameter.
 std::vector<VecX> design_points(const Design& design);
 
-// What the parameters do to one quantity: rows are parameters, there is one column; in units of the
-// quantity over the range.
+// The effects of the parameters on one quantity. Rows are parameters, and there is one column.
+// Effects are in the unit of the quantity, for a change over the whole range of the parameter.
 struct QuantityEffects {
   std::string name, unit;
   std::optional<OneAtATime> one_at_a_time;  // mu_star, s, spread times (upper - lower)
@@ -82,7 +85,8 @@ struct QuantityEffects {
   std::optional<Sobol> sobol;
 };
 
-// values: of each point; NaN where a member lacks it: what needs it is left out
+// values: the quantity at each point; NaN for a member without it. Samples that need such a point
+// are left out.
 QuantityEffects effects_of(const Design& design, const std::string& name, const std::string& unit,
                            const std::vector<double>& values);
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "core/base/text.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer {
@@ -16,38 +17,59 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+// One effect with its 95 % interval; share: a part of the variance, without a unit.
 struct Value {
   const char* name;
   bool share;
   double value, low, high;
 };
 
-// of one parameter, by every method; NaN where it was not asked for or could not be told
+// Interval estimates need at least two samples that could be evaluated.
+bool has_one_at_a_time(const QuantityEffects& e) {
+  return e.one_at_a_time && e.one_at_a_time->complete;
+}
+bool has_morris(const QuantityEffects& e) { return e.morris && e.morris->trajectories >= 2; }
+bool has_sobol(const QuantityEffects& e) { return e.sobol && e.sobol->rows >= 2; }
+
+Value value_of(const char* name, bool share, const Estimate& x, Eigen::Index i) {
+  return {name, share, x.value(i, 0), x.low(i, 0), x.high(i, 0)};
+}
+
+// The effects of one parameter by every method, always in the same order; NaN if the design does
+// not have the method, or too few of its samples could be evaluated.
 std::vector<Value> values(const QuantityEffects& e, Eigen::Index i) {
-  std::vector<Value> all;
-  const bool complete = e.one_at_a_time && e.one_at_a_time->complete;
-  all.push_back(
-      {"one_at_a_time", false, complete ? e.one_at_a_time->mu_star(i, 0) : none, none, none});
-  all.push_back(
-      {"one_at_a_time_spread", false, complete ? e.one_at_a_time->spread(i, 0) : none, none, none});
-  const auto add = [&](const char* name, bool share, bool there, const auto& estimate) {
-    if (!there) return all.push_back({name, share, none, none, none});
-    const Estimate& x = estimate();
-    all.push_back({name, share, x.value(i, 0), x.low(i, 0), x.high(i, 0)});
-  };
-  const bool morris = e.morris && e.morris->trajectories >= 2;
-  const bool sobol = e.sobol && e.sobol->rows >= 2;
-  add("morris_mu_star", false, morris, [&]() -> const Estimate& { return e.morris->mu_star; });
-  add("morris_sigma", false, morris, [&]() -> const Estimate& { return e.morris->sigma; });
-  add("sobol_first", true, sobol, [&]() -> const Estimate& { return e.sobol->first; });
-  add("sobol_total", true, sobol, [&]() -> const Estimate& { return e.sobol->total; });
+  std::vector<Value> all{{"one_at_a_time", false, none, none, none},
+                         {"one_at_a_time_spread", false, none, none, none},
+                         {"morris_mu_star", false, none, none, none},
+                         {"morris_sigma", false, none, none, none},
+                         {"sobol_first", true, none, none, none},
+                         {"sobol_total", true, none, none, none}};
+  if (has_one_at_a_time(e)) {
+    all[0].value = e.one_at_a_time->mu_star(i, 0);
+    all[1].value = e.one_at_a_time->spread(i, 0);
+  }
+  if (has_morris(e)) {
+    all[2] = value_of("morris_mu_star", false, e.morris->mu_star, i);
+    all[3] = value_of("morris_sigma", false, e.morris->sigma, i);
+  }
+  if (has_sobol(e)) {
+    all[4] = value_of("sobol_first", true, e.sobol->first, i);
+    all[5] = value_of("sobol_total", true, e.sobol->total, i);
+  }
   return all;
 }
 
 const Value& named(const std::vector<Value>& all, std::string_view name) {
-  return *std::find_if(all.begin(), all.end(), [&](const Value& v) { return v.name == name; });
+  return *std::ranges::find(all, name, &Value::name);
 }
 
+std::string cell(double x) {
+  if (std::isnan(x)) return "";
+  return number_text(x);
+}
+
+// Bars of some effects: a group for each parameter, with one bar for each effect. series: name of
+// the effect, and its name in the legend.
 Bars bars_of(const Design& design, const QuantityEffects& e,
              const std::vector<std::pair<std::string, std::string>>& series) {
   Bars b;
@@ -61,8 +83,10 @@ Bars bars_of(const Design& design, const QuantityEffects& e,
       const std::vector<Value> all = values(e, i);
       const Value& v = named(all, series[static_cast<std::size_t>(s)].first);
       b.values(s, i) = v.value;
-      b.low(s, i) = std::isnan(v.low) ? v.value : v.low;
-      b.high(s, i) = std::isnan(v.high) ? v.value : v.high;
+      b.low(s, i) = v.value;
+      b.high(s, i) = v.value;
+      if (!std::isnan(v.low)) b.low(s, i) = v.low;
+      if (!std::isnan(v.high)) b.high(s, i) = v.high;
     }
   }
   return b;
@@ -72,9 +96,7 @@ Bars bars_of(const Design& design, const QuantityEffects& e,
 
 std::string effects_csv(const Design& design, const std::vector<QuantityEffects>& effects) {
   std::string text = "quantity,unit,parameter,parameter_unit,lower,upper";
-  const auto cell = [](double x) {
-    return std::isnan(x) ? std::string() : number_text(x);
-  };
+
   bool headed = false;
   std::string rows;
   for (const QuantityEffects& e : effects)
@@ -101,50 +123,58 @@ std::string effects_csv(const Design& design, const std::vector<QuantityEffects>
   return text + "\n" + rows;
 }
 
+// The numbers of one parameter as a line shows them.
+using ValueText = std::string (*)(const std::vector<Value>&);
+
+std::string one_at_a_time_text(const std::vector<Value>& all) {
+  return fmt::format("{:.3g}", named(all, "one_at_a_time").value);
+}
+
+std::string morris_text(const std::vector<Value>& all) {
+  const Value& m = named(all, "morris_mu_star");
+  return fmt::format("{:.3g} ({:.3g} to {:.3g}; {:.2g})", m.value, m.low, m.high,
+                     named(all, "morris_sigma").value);
+}
+
+std::string sobol_text(const std::vector<Value>& all) {
+  return fmt::format("{:.0f} % ({:.0f} %)", 100 * named(all, "sobol_total").value,
+                     100 * named(all, "sobol_first").value);
+}
+
+// All parameters with their numbers, the largest effect first.
+std::string ranked_parameters(const Design& design, const QuantityEffects& e,
+                              const std::string& effect, ValueText text) {
+  std::vector<std::pair<double, std::string>> ranked;
+  for (std::size_t i = 0; i < design.parameters.size(); ++i) {
+    const std::vector<Value> all = values(e, static_cast<Eigen::Index>(i));
+    ranked.push_back(
+        {-named(all, effect).value, short_name(design.parameters[i]) + " " + text(all)});
+  }
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, std::string>::first);
+  std::string line;
+  for (const auto& [rank, parameter] : ranked) append(line, ", ", parameter);
+  return line;
+}
+
 std::vector<std::string> effects_lines(const Design& design, const QuantityEffects& e) {
   std::vector<std::string> lines;
-  const auto ranked = [&](const std::string& by, auto&& text) {
-    std::vector<std::pair<double, std::string>> words;
-    for (std::size_t i = 0; i < design.parameters.size(); ++i) {
-      const std::vector<Value> all = values(e, static_cast<Eigen::Index>(i));
-      words.push_back({-named(all, by).value, short_name(design.parameters[i]) + " " + text(all)});
-    }
-    std::stable_sort(words.begin(), words.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<std::string> said;
-    for (const auto& [key, word] : words) said.push_back(word);
-    return fmt::format("{}", fmt::join(said, ", "));
-  };
   std::string unit;
-  if (e.unit == "-") {
-    unit = "";
-  } else {
-    unit = ", " + e.unit;
-  }
-  if (e.one_at_a_time && e.one_at_a_time->complete)
+  if (e.unit != "-") unit = ", " + e.unit;
+  if (has_one_at_a_time(e))
     lines.push_back(fmt::format("{}: one at a time{}: {}", e.name, unit,
-                                ranked("one_at_a_time", [](const auto& all) {
-                                  return fmt::format("{:.3g}", named(all, "one_at_a_time").value);
-                                })));
-  if (e.morris && e.morris->trajectories >= 2)
+                                ranked_parameters(design, e, "one_at_a_time", one_at_a_time_text)));
+  if (has_morris(e))
     lines.push_back(fmt::format("{}: Morris mu* (95 %; sigma){}: {}", e.name, unit,
-                                ranked("morris_mu_star", [](const auto& all) {
-                                  const Value& m = named(all, "morris_mu_star");
-                                  return fmt::format("{:.3g} ({:.3g} to {:.3g}; {:.2g})", m.value,
-                                                     m.low, m.high,
-                                                     named(all, "morris_sigma").value);
-                                })));
-  if (e.sobol && e.sobol->rows >= 2)
-    lines.push_back(fmt::format(
-        "{}: Sobol total (alone): {}", e.name, ranked("sobol_total", [](const auto& all) {
-          return fmt::format("{:.0f} % ({:.0f} %)", 100 * named(all, "sobol_total").value,
-                             100 * named(all, "sobol_first").value);
-        })));
-  const int without = (e.morris ? e.morris->without_curve : 0) +
-                      static_cast<int>(e.sobol ? e.sobol->without_curve : 0);
+                                ranked_parameters(design, e, "morris_mu_star", morris_text)));
+  if (has_sobol(e))
+    lines.push_back(fmt::format("{}: Sobol total (alone): {}", e.name,
+                                ranked_parameters(design, e, "sobol_total", sobol_text)));
+  int without = 0;
+  if (e.morris) without += e.morris->without_curve;
+  if (e.sobol) without += static_cast<int>(e.sobol->without_curve);
   if (without > 0)
     lines.push_back(
-        fmt::format("warning: {}: {} samples lack it and are left out", e.name, without));
+        fmt::format("warning: {}: {} samples without it are left out", e.name, without));
   return lines;
 }
 
@@ -156,12 +186,9 @@ Bars effects_bars(const Design& design, const QuantityEffects& e) {
     series.push_back({"morris_sigma", "Morris: σ"});
   }
   Bars b = bars_of(design, e, series);
-  b.title = fmt::format("what the parameters do to {} over their ranges", e.name);
-  if (e.unit == "-") {
-    b.y_label = e.name;
-  } else {
-    b.y_label = fmt::format("{} ({})", e.name, e.unit);
-  }
+  b.title = fmt::format("effect of the parameters on {} over their ranges", e.name);
+  b.y_label = e.name;
+  if (e.unit != "-") b.y_label = fmt::format("{} ({})", e.name, e.unit);
   return b;
 }
 

@@ -1,4 +1,4 @@
-// What a design of experiments has told: effects.csv, lines for the reader, bars for each quantity.
+// The results of a design of experiments: effects.csv, lines of text, and bar charts.
 #pragma once
 
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace langer {
 
-// one row per quantity and parameter; empty where a method was not asked for
+// One row per quantity and parameter. Cells of a method that the design does not have are empty.
 std::string effects_csv(const Design& design, const std::vector<QuantityEffects>& effects);
 std::vector<std::string> effects_lines(const Design& design, const QuantityEffects& effects);
-Bars effects_bars(const Design& design,
-                  const QuantityEffects& effects);  // mu* of each method, in the quantity's unit
-Bars share_bars(const Design& design, const QuantityEffects& effects);  // Sobol's
+// mu* of each method in the unit of the quantity.
+Bars effects_bars(const Design& design, const QuantityEffects& effects);
+// Sobol' indices.
+Bars share_bars(const Design& design, const QuantityEffects& effects);
 
 }  // namespace langer

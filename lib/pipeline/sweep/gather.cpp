@@ -15,28 +15,32 @@ namespace langer {
 namespace {
 
 const Summary* find(const std::vector<Summary>& summary, const std::string& name) {
-  const auto it = std::find_if(summary.begin(), summary.end(),
-                               [&](const Summary& s) { return s.name == name; });
+  const auto it = std::ranges::find(summary, name, &Summary::name);
   if (it == summary.end()) return nullptr;
   return &*it;
 }
 
+// The quantities of all members, each once.
 std::vector<std::string> all_names(const std::vector<GatherInput>& members) {
   std::vector<std::string> names;
   for (const GatherInput& m : members)
     for (const Summary& s : m.summary)
-      if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
+      if (std::ranges::find(names, s.name) == names.end()) names.push_back(s.name);
   return names;
 }
 
+// One quantity of all members. Its unit must be the same for all, and at least one must have it.
 SweepColumn column(const std::string& name, const std::vector<GatherInput>& members,
                    const Place& asked_at) {
   SweepColumn c{name, "", {}};
   const GatherInput* first = nullptr;
   for (const GatherInput& m : members) {
     const Summary* s = find(m.summary, name);
-    c.values.push_back(s ? s->value : std::numeric_limits<double>::quiet_NaN());
-    if (!s) continue;
+    if (!s) {
+      c.values.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    c.values.push_back(s->value);
     if (!first) {
       c.unit = s->unit;
       first = &m;
@@ -58,7 +62,10 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
   return c;
 }
 
-// a word of an axis in a table: quoted where a comma or a quote would split it
+std::string cell(double x) {
+  if (std::isnan(x)) return "";
+  return number_text(x);
+}
 
 }  // namespace
 
@@ -84,8 +91,7 @@ std::string csv(const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.members.size(); ++i) {
     words.clear();
     for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(a.values[i]));
-    for (const SweepColumn& c : sweep.columns)
-      words.push_back(std::isnan(c.values[i]) ? "" : number_text(c.values[i]));
+    for (const SweepColumn& c : sweep.columns) words.push_back(cell(c.values[i]));
     text += fmt::format("{}\n", fmt::join(words, ","));
   }
   return text;

@@ -12,7 +12,7 @@
 namespace langer {
 
 struct GatherInput {
-  std::string path;             // what the member is called
+  std::string path;             // the name of the member
   std::vector<std::string> at;  // its value on each axis, as text
   std::vector<Summary> summary;
 };
@@ -20,7 +20,7 @@ struct GatherInput {
 struct SweepAxis {
   std::string name, unit;
   std::vector<std::string> values;  // one per member
-  bool samples = false;             // of what a fit leaves open (sweep/spread.hpp)
+  bool samples = false;             // the values number samples of parameters (sweep/spread.hpp)
 };
 
 struct SweepColumn {
@@ -34,12 +34,12 @@ struct Sweep {
   std::vector<SweepColumn> columns;
 };
 
-// `axes` come without values; `columns` empty: all quantities of the first member; `columns_at`:
-// where they were asked for
+// `axes` come without values. If `columns` is empty, the table has all quantities of the first
+// member. `columns_at`: the place of the key, for messages.
 Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes,
              const std::vector<GatherInput>& members, const Place& columns_at = {});
 
-// header and one line per member
+// The table as CSV: a header, and one line per member.
 std::string csv(const Sweep& sweep);
 
 }  // namespace langer

@@ -1,5 +1,5 @@
-// Config of gather. `axes` and `members` are written by plan; by hand they are needed only where
-// axis columns are wanted.
+// Config of gather. `axes` and `members` are written by plan. A config that is written by hand
+// needs them only for columns of axes.
 #pragma once
 
 #include <map>
@@ -21,10 +21,10 @@ struct GatherAxis {
     v(&GatherAxis::name, "name", unit::none, "name of the column", required);
     v(&GatherAxis::unit, "unit", unit::none, "unit of the values; - for words and pure numbers");
     v(&GatherAxis::design, "design", unit::none,
-      "the values number the points of this design: effects are told");
+      "the values number the points of this design: effects are computed");
     v(&GatherAxis::samples, "samples", unit::none,
-      "the values number so many sets of parameters that a fit leaves open: spread of each quantity, parameters that matter, bands of "
-      "figures",
+      "the values number so many samples of the fitted parameters: spread of each quantity, most "
+      "important parameters, bands in figures",
       at_least(2));
   }
 };
@@ -33,13 +33,13 @@ struct GatherMember {
   std::string path;
   std::vector<std::string> at;
   static void fields(auto& v) {
-    v(&GatherMember::path, "path", unit::none,
-      "what the member is called: its file in the run's folder", required);
+    v(&GatherMember::path, "path", unit::none, "name of the member: its file in the run's folder",
+      required);
     v(&GatherMember::at, "at", unit::none, "its value on each axis", required);
   }
 };
 
-// What a row of the table is.
+// The rows of the table: members of the sweep, or parameters of one fit.
 enum class GatherRows { members, parameters };
 constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
 
@@ -53,55 +53,63 @@ struct GatherConfig {
   FigureStyle figure_style;
   static void fields(auto& v) {
     v(&GatherConfig::rows, "rows", unit::none,
-      "members: one for each file; parameters: one for each number that a fit found, of one fit, with what it is where data were made up, "
-      "its standard error and 95 % interval");
+      "members: one for each file; parameters: one for each fitted parameter of one fit, with its "
+      "true value (of synthetic data), standard error and 95 % interval");
     v(&GatherConfig::columns, "columns", unit::none,
-      "names of /summary in the order wanted; none means all of the first member");
+      "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
       "x-y figures by name, <name>.svg, .png and .csv");
     v(&GatherConfig::maps, "maps", unit::none,
-      "maps of all members in one picture, on one colour scale, <name>.svg and .png; the name of a map that post made");
+      "maps of all members in one picture, on one colour scale, <name>.svg and .png; the name of a "
+      "map that post made");
     v(&GatherConfig::figure_style, "figure_style", unit::none, "how figures and maps are made");
     v(&GatherConfig::axes, "axes", unit::none, "first columns of the table; written by plan");
     v(&GatherConfig::members, "members", unit::none,
       "one per file gathered, in the same order; written by plan");
   }
-  std::vector<Complaint> complaints() const {
-    std::vector<Complaint> all;
-    if (rows == GatherRows::parameters &&
-        !(columns.empty() && axes.empty() && figures.empty() && maps.empty()))
-      all.push_back({"rows", "parameters, beside columns, axes, figures or maps", "none of them",
-                     "the table has columns of its own"});
-    for (std::size_t i = 0; i < members.size(); ++i)
-      if (members[i].at.size() != axes.size())
-        all.push_back({"members[" + std::to_string(i) + "].at",
-                       "found " + std::to_string(members[i].at.size()) + " values",
-                       "one for each of the " + std::to_string(axes.size()) + " axes", ""});
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      if (axes[i].design && axes.size() > 1)
-        all.push_back(
-            {"axes[" + std::to_string(i) + "].design", "a design beside other axes",
-             "the design as the only axis",
-             "gather it alone: name one member of the other axes, or give each its own pipeline"});
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      if (axes[i].samples && axes.size() > 1)
-        all.push_back({"axes[" + std::to_string(i) + "].samples", "samples beside other axes",
-                       "the samples as the only axis",
-                       "gather them alone: name one member of the other axes"});
-    for (const auto& [name, figure] : figures)
-      if (maps.count(name) || name == "table" || !is_column_name(name))
-        all.push_back({"figures." + name, "the name " + name,
-                       "another name: letters, digits, _, + and - only",
-                       maps.count(name) ? "a map has it" : ""});
-    for (const auto& [name, map] : maps)
-      if (map.compare && map.compare->with.size() != axes.size() && !axes.empty())
-        all.push_back({"maps." + name + ".compare.with",
-                       "found " + std::to_string(map.compare->with.size()) + " values",
-                       "one for each of the " + std::to_string(axes.size()) + " axes", ""});
-    if (members.empty() && !axes.empty())
-      all.push_back({"axes", "there are axes and no members", "members with their values", ""});
-    return all;
-  }
+  // What single keys cannot check: values of members fit to the axes, a design or samples are the
+  // only axis, and names of figures and maps are different.
+  std::vector<Complaint> complaints() const;
 };
+
+inline std::vector<Complaint> GatherConfig::complaints() const {
+  std::vector<Complaint> all;
+  const bool has_own_columns =
+      !columns.empty() || !axes.empty() || !figures.empty() || !maps.empty();
+  if (rows == GatherRows::parameters && has_own_columns)
+    all.push_back({"rows", "parameters, together with columns, axes, figures or maps",
+                   "none of them", "the table has columns of its own"});
+  const std::string one_each = "one for each of the " + std::to_string(axes.size()) + " axes";
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].at.size() != axes.size())
+      all.push_back({"members[" + std::to_string(i) + "].at",
+                     "found " + std::to_string(members[i].at.size()) + " values", one_each, ""});
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].design && axes.size() > 1)
+      all.push_back(
+          {"axes[" + std::to_string(i) + "].design", "a design together with other axes",
+           "the design as the only axis",
+           "gather it alone: name one member of the other axes, or give each its own pipeline"});
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].samples && axes.size() > 1)
+      all.push_back({"axes[" + std::to_string(i) + "].samples", "samples together with other axes",
+                     "the samples as the only axis",
+                     "gather them alone: name one member of the other axes"});
+  for (const auto& [name, figure] : figures) {
+    const bool duplicate = maps.count(name) > 0;
+    if (!duplicate && name != "table" && is_column_name(name)) continue;
+    all.push_back({"figures." + name, "the name " + name,
+                   "another name: letters, digits, _, + and - only",
+                   duplicate ? "a map has it" : ""});
+  }
+  for (const auto& [name, map] : maps)
+    if (map.compare && map.compare->with.size() != axes.size() && !axes.empty())
+      all.push_back({"maps." + name + ".compare.with",
+                     "found " + std::to_string(map.compare->with.size()) + " values", one_each,
+                     ""});
+  if (members.empty() && !axes.empty())
+    all.push_back({"axes", "there are axes and no members", "members with their values", ""});
+  return all;
+}
 
 }  // namespace langer

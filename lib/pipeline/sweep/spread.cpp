@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/quantile.hpp"
+#include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 
 namespace langer {
@@ -19,7 +20,7 @@ double mean_of(const std::vector<double>& v) {
   return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
 
-// sum of (a - mean)(b - mean)/(n - 1)
+// The covariance: sum of (a - mean a)(b - mean b) over n - 1.
 double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
   const double ma = mean_of(a);
   const double mb = mean_of(b);
@@ -33,8 +34,8 @@ double percentile(std::vector<double> v, double part) {
   return quantile(v, part);
 }
 
-// of a curve at a place between its rows; beyond them their nearest end
-double read_at(const Column& x, const Column& y, double at) {
+// The value of a curve at x = `at`, linear between its rows, constant beyond them.
+double interpolate(const Column& x, const Column& y, double at) {
   const std::size_t n = std::min(x.values.size(), y.values.size());
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double a = x.values[i];
@@ -46,6 +47,35 @@ double read_at(const Column& x, const Column& y, double at) {
   return y.values[n - 1];
 }
 
+// Elements of a column, by their index.
+std::vector<double> selected(const std::vector<double>& all, const std::vector<std::size_t>& rows) {
+  std::vector<double> some;
+  for (std::size_t i : rows) some.push_back(all[i]);
+  return some;
+}
+
+double value_in(const std::vector<Summary>& summary, const std::string& name) {
+  const auto found = std::ranges::find(summary, name, &Summary::name);
+  if (found == summary.end()) return std::nan("");
+  return found->value;
+}
+
+std::string cell(double x) {
+  if (std::isnan(x)) return "";
+  return number_text(x);
+}
+
+// The 95 % intervals as pairs (low, high).
+void write_interval(const h5::Group& group, const std::vector<double>& low,
+                    const std::vector<double>& high, const std::string& unit) {
+  std::vector<double> both;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    both.push_back(low[i]);
+    both.push_back(high[i]);
+  }
+  group.write<double>("interval", {low.size(), 2}, both, unit);
+}
+
 }  // namespace
 
 std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summary>>& sets) {
@@ -53,48 +83,40 @@ std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summar
   if (sets.empty()) return all;
   for (const Summary& first : sets[0]) {
     SweepColumn column{first.name, first.unit, {}};
+    bool varies = false;
     for (const std::vector<Summary>& set : sets) {
-      const auto it = std::find_if(set.begin(), set.end(),
-                                   [&](const Summary& one) { return one.name == first.name; });
-      column.values.push_back(it == set.end() ? std::nan("") : it->value);
+      column.values.push_back(value_in(set, first.name));
+      varies = varies || column.values.back() != column.values[0];
     }
-    const bool varies = std::any_of(column.values.begin(), column.values.end(),
-                                    [&](double v) { return v != column.values[0]; });
     if (varies) all.push_back(std::move(column));
   }
   return all;
 }
 
 Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& parameters) {
-  std::vector<std::size_t> there;
+  std::vector<std::size_t> rows;  // members that have the quantity
   for (std::size_t i = 0; i < column.values.size(); ++i)
-    if (std::isfinite(column.values[i])) there.push_back(i);
-  const auto chosen = [&](const std::vector<double>& all) {
-    std::vector<double> some;
-    for (std::size_t i : there) some.push_back(all[i]);
-    return some;
-  };
+    if (std::isfinite(column.values[i])) rows.push_back(i);
   const double none = std::nan("");
   Spread spread{column.name, column.unit, none, none, none, none};
-  if (there.size() < 2) return spread;
-  const std::vector<double> v = chosen(column.values);
+  if (rows.size() < 2) return spread;
+  const std::vector<double> v = selected(column.values, rows);
   spread.mean = mean_of(v);
   spread.deviation = std::sqrt(covariance_of(v, v));
   spread.low = percentile(v, 0.025);
   spread.high = percentile(v, 0.975);
   for (const SweepColumn& p : parameters) {
-    const std::vector<double> q = chosen(p.values);
+    const std::vector<double> q = selected(p.values, rows);
     const double variance = covariance_of(q, q);
-    const double both = covariance_of(v, q);
-    double part = 0;
+    const double covariance = covariance_of(v, q);
+    double part = 0;  // the squared correlation
     if (variance > 0 && spread.deviation > 0) {
-      part = both * both / (variance * spread.deviation * spread.deviation);
+      part = covariance * covariance / (variance * spread.deviation * spread.deviation);
     }
     spread.parts.push_back({p.name.substr(std::string(prefix).size()),
                             spread.deviation * std::sqrt(std::max(0.0, 1 - part))});
   }
-  std::stable_sort(spread.parts.begin(), spread.parts.end(),
-                   [](const auto& a, const auto& b) { return a.without < b.without; });
+  std::ranges::stable_sort(spread.parts, {}, &Spread::Part::without);
   return spread;
 }
 
@@ -102,40 +124,42 @@ std::string spread_csv(const std::vector<Spread>& all) {
   std::vector<std::string> names;
   for (const Spread& one : all)
     for (const Spread::Part& part : one.parts)
-      if (std::find(names.begin(), names.end(), part.name) == names.end())
-        names.push_back(part.name);
+      if (std::ranges::find(names, part.name) == names.end()) names.push_back(part.name);
   std::sort(names.begin(), names.end());
   std::string text = "quantity,unit,mean,standard_deviation,lower_95,upper_95";
   for (const std::string& name : names) text += "," + csv_cell("without_" + name);
   text += "\n";
-  const auto cell = [](double x) {
-    return std::isnan(x) ? std::string() : number_text(x);
-  };
   for (const Spread& one : all) {
     text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit), cell(one.mean),
                         cell(one.deviation), cell(one.low), cell(one.high));
     for (const std::string& name : names) {
-      const auto part = std::find_if(one.parts.begin(), one.parts.end(),
-                                     [&](const auto& p) { return p.name == name; });
-      text += "," + (part == one.parts.end() ? std::string() : cell(part->without));
+      const auto part = std::ranges::find(one.parts, name, &Spread::Part::name);
+      text += ",";
+      if (part != one.parts.end()) text += cell(part->without);
     }
     text += "\n";
   }
   return text;
 }
 
+// Names at most three parameters, and only those whose knowledge would reduce the deviation by more
+// than a tenth.
 std::string in_words(const Spread& s) {
   const auto percent = [&](double part) {
     return fmt::format("{:.2g} %", 100 * part / std::max(std::abs(s.mean), 1e-300));
   };
-  std::string words =
-      fmt::format("{} {:.4g}{} +- {} (parameters), 95 % in {:.4g} to {:.4g}", s.name, s.mean,
-                  s.unit == "-" ? "" : " " + s.unit, percent(s.deviation), s.low, s.high);
-  int said = 0;
-  for (const Spread::Part& part : s.parts)
-    if (part.without < 0.9 * s.deviation && said++ < 3)
-      words += fmt::format("{} {} if {} were known", said == 1 ? ";" : ",", percent(part.without),
-                           part.name);
+  std::string unit;
+  if (s.unit != "-") unit = " " + s.unit;
+  std::string words = fmt::format("{} {:.4g}{} +- {} (parameters), 95 % in {:.4g} to {:.4g}",
+                                  s.name, s.mean, unit, percent(s.deviation), s.low, s.high);
+  std::string reductions;
+  int n = 0;
+  for (const Spread::Part& part : s.parts) {
+    if (!(part.without < 0.9 * s.deviation) || n == 3) continue;
+    append(reductions, ", ", fmt::format("{} if {} were known", percent(part.without), part.name));
+    ++n;
+  }
+  if (n > 0) words += "; " + reductions;
   return words;
 }
 
@@ -145,7 +169,7 @@ Band band_of(const std::string& figure, const std::vector<const Column*>& x,
   for (std::size_t row = 0; row < x[0]->values.size(); ++row) {
     std::vector<double> at;
     for (std::size_t k = 0; k < x.size(); ++k)
-      at.push_back(read_at(*x[k], *y[k], x[0]->values[row]));
+      at.push_back(interpolate(*x[k], *y[k], x[0]->values[row]));
     band.mean.values[row] = mean_of(at);
     band.deviation.values[row] = std::sqrt(covariance_of(at, at));
     band.low.values[row] = percentile(at, 0.025);
@@ -156,15 +180,6 @@ Band band_of(const std::string& figure, const std::vector<const Column*>& x,
 
 void write_spread(const h5::Group& root, const std::vector<Spread>& all,
                   const std::vector<Band>& bands) {
-  const auto write_interval = [](const h5::Group& group, const std::vector<double>& low,
-                                 const std::vector<double>& high, const std::string& unit) {
-    std::vector<double> both;
-    for (std::size_t i = 0; i < low.size(); ++i) {
-      both.push_back(low[i]);
-      both.push_back(high[i]);
-    }
-    group.write<double>("interval", {low.size(), 2}, both, unit);
-  };
   const h5::Group spreads = root.make_group("spread");
   for (const Spread& one : all) {
     const h5::Group group = spreads.make_group(one.name);

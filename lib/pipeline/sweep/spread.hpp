@@ -1,9 +1,13 @@
-// What a fit leaves open in results, from a sweep over sets of its parameters: spread of each
-// quantity, which parameter it comes from, and bands of curves. Beside the linear band
-// (inverse/uncertainty.hpp), which it checks.
-//   deviation, mean        of the members
+// The uncertainty of results from the uncertainty of fitted parameters, by Monte Carlo sampling.
+//
+// A sweep solves the same scene with many sets of parameters, drawn from the covariance of the fit.
+// The results of its members have
+//   mean, deviation        mean and standard deviation
 //   low, high              percentiles 2.5 and 97.5
-//   without p_j            deviation sqrt(1 - r_j^2), r_j the correlation with p_j: what would be left if p_j were known
+//   without p_j            deviation sqrt(1 - r_j^2), with r_j the correlation of the result with
+//                          p_j: the standard deviation that would remain if p_j were known
+// The method has no assumption of linearity, so it checks the linear band of
+// inverse/uncertainty.hpp, which needs derivatives only.
 #pragma once
 
 #include <string>
@@ -22,24 +26,27 @@ struct Spread {
     std::string name;
     double without = 0;
   };
-  std::vector<Part> parts = {};  // the one that would help most first
+  std::vector<Part> parts = {};  // by rising `without`: the most important parameter first
 };
 
-// Columns parameter_<name>, one for each that varies: what each member's set says.
+// The columns parameter_<name> of all members, one for each parameter that varies.
 std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summary>>& sets);
-// of a column with two values at least; NaN are left out
+// The spread of one column. Members without a value (NaN) are left out; with less than two values
+// the spread is NaN.
 Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& parameters);
 std::string spread_csv(const std::vector<Spread>& all);
-std::string in_words(
-    const Spread& spread);  // "force 0.31 N +- 24 %, 95 % in 0.2 to 0.4; 5.1 % if c1 were known"
+// "force 0.31 N +- 24 % (parameters), 95 % in 0.2 to 0.4; 5.1 % if c1 were known"
+std::string in_words(const Spread& spread);
 
-// at each x of the first member, the others read between their rows
+// The band of a curve at each x of the first member. The curves of the others are interpolated
+// between their rows.
 Band band_of(const std::string& figure, const std::vector<const Column*>& x,
              const std::vector<const Column*>& y);
 
-// /spread/<quantity>/{mean, deviation, interval, without}, attribute `order` of each: the
-// parameters /bands/<figure>_<y>/{x, mean, deviation, interval}, attributes x, y of each: their
-// names
+// Writes
+//   /spread/<quantity>/{mean, deviation, interval, without}, with the attribute `order`: the
+//                      parameters
+//   /bands/<figure>_<y>/{x, mean, deviation, interval}, with the attributes x and y: their names
 void write_spread(const h5::Group& root, const std::vector<Spread>& all,
                   const std::vector<Band>& bands);
 

@@ -23,11 +23,11 @@ std::vector<Complaint> SweepFigure::complaints() const {
     found.push_back({"legends", fmt::format("{} legends for {} names", legends.size(), y.size()),
                      "one for each y", ""});
   for (std::size_t i = 0; i < markers.size(); ++i)
-    if (std::find(y.begin(), y.end(), markers[i]) == y.end())
+    if (std::ranges::find(y, markers[i]) == y.end())
       found.push_back(
           {fmt::format("markers[{}]", i), markers[i], "one of y: " + list_words(y), ""});
   for (std::size_t i = 0; i < once.size(); ++i)
-    if (std::find(y.begin(), y.end(), once[i]) == y.end())
+    if (std::ranges::find(y, once[i]) == y.end())
       found.push_back({fmt::format("once[{}]", i), once[i], "one of y: " + list_words(y), ""});
   return found;
 }
@@ -40,12 +40,11 @@ std::string member_text(const std::string& pattern, const std::vector<SweepAxis>
     if (a < axes.size() && axes[a].unit != "-") unit = axes[a].unit;
     if (a > 0) values += ", ";
     values += at[a];
-    if (pattern.empty() && !unit.empty()) {
-      if (unit == "deg") {
-        values += "°";
-      } else {
-        values += " " + unit;
-      }
+    if (!pattern.empty() || unit.empty()) continue;
+    if (unit == "deg") {
+      values += "°";
+    } else {
+      values += " " + unit;
     }
   }
   std::string text = text_or(pattern, "{}");
@@ -57,11 +56,12 @@ std::string member_text(const std::string& pattern, const std::vector<SweepAxis>
 
 namespace {
 
-// Columns of different lengths side by side, with their heads.
+// A CSV table of columns of different lengths. Cells below the end of a column are empty.
 struct Table {
   std::vector<std::string> heads;
   std::vector<std::vector<double>> columns;
 
+  // Adds a column and returns its head.
   std::string add(const std::string& head, std::vector<double> values) {
     heads.push_back(head);
     columns.push_back(std::move(values));
@@ -73,20 +73,27 @@ struct Table {
     text += "\n";
     std::size_t rows = 0;
     for (const auto& c : columns) rows = std::max(rows, c.size());
-    for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t i = 0; i < rows; ++i) {
       for (std::size_t c = 0; c < columns.size(); ++c) {
-        const bool there = i < columns[c].size() && !std::isnan(columns[c][i]);
-        text += (there ? number_text(columns[c][i]) : "") + (c + 1 < columns.size() ? "," : "\n");
+        if (c > 0) text += ",";
+        text += cell(columns[c], i);
       }
+      text += "\n";
+    }
     return text;
+  }
+
+ private:
+  static std::string cell(const std::vector<double>& column, std::size_t row) {
+    if (row >= column.size() || std::isnan(column[row])) return "";
+    return number_text(column[row]);
   }
 };
 
-// what a column of that name shows, where it has the name of a quantity
-std::string shown(const std::string& name) {
+// The label of a column on an axis: that of the quantity of the same name, or the name itself.
+std::string label_of(const std::string& name) {
   const auto lines = quantity_lines();
-  const auto found = std::find_if(lines.begin(), lines.end(),
-                                  [&](const QuantityLine& line) { return line.word == name; });
+  const auto found = std::ranges::find(lines, name, &QuantityLine::word);
   if (found == lines.end()) return literal(name);
   return found->label;
 }
@@ -98,6 +105,7 @@ std::string shown(const std::string& name) {
                                     "one of " + list_words(known), did_you_mean(near)});
 }
 
+// Builds one figure: the plot, and the table of the numbers in it.
 class Drawer {
  public:
   Drawer(const SweepFigure& figure, const std::string& name, const std::vector<SweepAxis>& axes,
@@ -114,8 +122,7 @@ class Drawer {
     data_.plot.title = figure_.title;
     data_.plot.scale = figure_.scale;
     if (figure_.points) add_points(*figure_.points);
-    const auto axis = std::find_if(axes_.begin(), axes_.end(),
-                                   [&](const SweepAxis& a) { return a.name == figure_.x; });
+    const auto axis = std::ranges::find(axes_, figure_.x, &SweepAxis::name);
     if (axis == axes_.end() && axes_.size() == 1 && axes_[0].samples)
       over_samples();
     else if (axis == axes_.end())
@@ -126,9 +133,7 @@ class Drawer {
     if (figure_.y_label) {
       y_label = *figure_.y_label;
     } else if (figure_.y.size() == 1) {
-      y_label = shown(figure_.y[0]);
-    } else {
-      y_label = "";
+      y_label = label_of(figure_.y[0]);
     }
     data_.plot.y_label_is_unit = y_label.empty();
     if (y_label.empty()) {
@@ -150,27 +155,29 @@ class Drawer {
   Table table_;
   std::string y_unit_;
 
-  void take_unit(std::size_t i, const std::string& unit) {
+  // All y of a figure have the same unit.
+  void check_unit(std::size_t i, const std::string& unit) {
     if (y_unit_.empty()) y_unit_ = unit;
     if (unit != y_unit_)
       throw Failure(Exit::config,
                     Error{where_(fmt::format("y[{}]", i)), fmt::format("y[{}]", i),
                           fmt::format("{} in {}", figure_.y[i], unit), "names in " + y_unit_, ""});
   }
+
+  // Whether one y is drawn for each member. The members then differ in colour, otherwise in dashes.
+  bool has_single_y() const { return figure_.y.size() == figure_.once.size() + 1; }
+
+  // The name of a line: of its y, of its member, or of both if there are several of each.
   std::string legend(std::size_t i, const std::string& member) const {
-    std::string name;
-    if (figure_.legends.empty()) {
-      name = shown(figure_.y[i]);
-    } else {
-      name = figure_.legends[i];
-    }
+    std::string name = figure_.legends[i];
+    if (figure_.legends.empty()) name = label_of(figure_.y[i]);
     if (member.empty()) return name;
-    const bool alone =
-        figure_.y.size() == figure_.once.size() + 1;  // of those drawn for each member
-    if (alone && figure_.legends.empty()) return member;
+    if (has_single_y() && figure_.legends.empty()) return member;
     return name + ", " + member;
   }
-  // several y of several members: colours are the y, dashes the members
+
+  // Adds a line. With several y of several members the colour is that of the y, and the dashes are
+  // those of the member.
   void add_line(const std::string& x, const std::string& y, std::size_t i, std::size_t member,
                 const std::string& member_name) {
     PlotLine line{file_, x, y, legend(i, member_name)};
@@ -179,11 +186,11 @@ class Drawer {
       line.colour = static_cast<int>(i);
       line.dash = static_cast<int>(member);
     }
-    line.points = std::find(figure_.markers.begin(), figure_.markers.end(), figure_.y[i]) !=
-                  figure_.markers.end();
+    line.points = std::ranges::find(figure_.markers, figure_.y[i]) != figure_.markers.end();
     data_.plot.lines.push_back(line);
   }
 
+  // Adds the measured points.
   void add_points(const FigurePoints& points) {
     const PointColumns read = read_points(points, where_);
     PlotLine line{file_, table_.add("points_" + points.x, read.x),
@@ -193,13 +200,31 @@ class Drawer {
     data_.plot.rows = static_cast<int>(read.x.size());
   }
 
+  // The values of a summary's quantity for the members of a line; NaN for a member without it.
+  // Sets the unit if any member has it.
+  static std::vector<double> summary_values(
+      const std::vector<std::pair<double, const SweepMember*>>& points, const std::string& name,
+      std::string& unit) {
+    std::vector<double> y;
+    for (const auto& [x, member] : points) {
+      const auto s = std::ranges::find(member->summary, name, &Summary::name);
+      if (s == member->summary.end()) {
+        y.push_back(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
+      y.push_back(s->value);
+      unit = s->unit;
+    }
+    return y;
+  }
+
+  // x is an axis of the sweep. Members that differ in this axis only are the points of one line.
   void over_axis(std::size_t axis) {
-    // groups of members that differ in this axis only
-    std::vector<std::vector<std::string>> others;
-    for (const SweepMember& m : members_)
-      if (const auto rest = without(m.at, axis);
-          std::find(others.begin(), others.end(), rest) == others.end())
-        others.push_back(rest);
+    std::vector<std::vector<std::string>> others;  // values on the other axes, one for each line
+    for (const SweepMember& m : members_) {
+      const auto rest = without(m.at, axis);
+      if (std::ranges::find(others, rest) == others.end()) others.push_back(rest);
+    }
     std::vector<SweepAxis> other_axes = axes_;
     other_axes.erase(other_axes.begin() + static_cast<std::ptrdiff_t>(axis));
     data_.plot.x_label = with_unit(figure_.x_label.value_or(literal(figure_.x)), axes_[axis].unit);
@@ -207,71 +232,63 @@ class Drawer {
       std::vector<std::pair<double, const SweepMember*>> points;
       for (const SweepMember& m : members_)
         if (without(m.at, axis) == others[g]) points.push_back({number(m.at[axis]), &m});
-      std::stable_sort(points.begin(), points.end(),
-                       [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::ranges::stable_sort(points, {}, &std::pair<double, const SweepMember*>::first);
       std::vector<double> x;
       for (const auto& [value, member] : points) x.push_back(value);
       if (axes_[axis].unit == "deg" && x.back() - x.front() >= 90 && x.back() - x.front() <= 360)
         data_.plot.x_step = 30;
       std::string ending;
-      if (others.size() > 1) ending = fmt::format("_{}", fmt::join(others[g], "_"));
+      std::string name;
+      if (others.size() > 1) {
+        ending = fmt::format("_{}", fmt::join(others[g], "_"));
+        name = literal(member_text(figure_.member, other_axes, others[g]));
+      }
       const std::string x_head = table_.add(csv_name(figure_.x + ending, axes_[axis].unit), x);
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
-        std::vector<double> y;
         std::string unit;
-        for (const auto& [value, member] : points) {
-          const auto s =
-              std::find_if(member->summary.begin(), member->summary.end(),
-                           [&](const Summary& found) { return found.name == figure_.y[i]; });
-          const bool there = s != member->summary.end();
-          y.push_back(there ? s->value : std::numeric_limits<double>::quiet_NaN());
-          if (there) unit = s->unit;
-        }
+        const std::vector<double> y = summary_values(points, figure_.y[i], unit);
         if (unit.empty())
           unknown(where_(fmt::format("y[{}]", i)), fmt::format("y[{}]", i), figure_.y[i],
                   summary_names());
-        take_unit(i, unit);
+        check_unit(i, unit);
         const std::string y_head = table_.add(csv_name(figure_.y[i] + ending, unit), y);
-        add_line(
-            x_head, y_head, i, g,
-            others.size() > 1 ? literal(member_text(figure_.member, other_axes, others[g])) : "");
+        add_line(x_head, y_head, i, g, name);
       }
     }
   }
 
+  // x is a column of the members' curves. A member whose x is that of the first one shares its
+  // column in the table.
   void over_curves() {
     for (std::size_t k = 0; k < members_.size(); ++k) {
       const SweepMember& m = members_[k];
       const Column& x = column(m, "x", figure_.x);
-      const bool shared = k > 0 && x.values == column(members_[0], "x", figure_.x).values;
-      const std::string ending =
-          "_" + (m.at.empty() ? std::to_string(k + 1) : fmt::format("{}", fmt::join(m.at, "_")));
-      std::string x_head;
-      if (shared) {
-        x_head = csv_name(x.name, x.unit);
-      } else {
-        x_head = table_.add(csv_name(x.name + (k ? ending : ""), x.unit), x.values);
+      std::string number = std::to_string(k + 1);
+      std::string name = number;
+      if (!m.at.empty()) {
+        number = fmt::format("{}", fmt::join(m.at, "_"));
+        name = literal(member_text(figure_.member, axes_, m.at));
       }
-      data_.plot.x_label = with_unit(figure_.x_label.value_or(shown(figure_.x)), x.unit);
+      const std::string ending = "_" + number;
+      std::string x_head = csv_name(x.name, x.unit);
+      if (k > 0 && x.values != column(members_[0], "x", figure_.x).values)
+        x_head = table_.add(csv_name(x.name + ending, x.unit), x.values);
+      if (k == 0) table_.add(x_head, x.values);
+      data_.plot.x_label = with_unit(figure_.x_label.value_or(label_of(figure_.x)), x.unit);
       data_.plot.rows = std::max(data_.plot.rows, static_cast<int>(x.values.size()));
       for (std::size_t i = 0; i < figure_.y.size(); ++i) {
         const Column& y = column(m, fmt::format("y[{}]", i), figure_.y[i]);
-        const bool once =
-            std::find(figure_.once.begin(), figure_.once.end(), figure_.y[i]) != figure_.once.end();
+        const bool once = std::ranges::find(figure_.once, figure_.y[i]) != figure_.once.end();
         if (once && k > 0) continue;
-        take_unit(i, y.unit);
+        check_unit(i, y.unit);
         const std::string y_head = table_.add(csv_name(y.name + ending, y.unit), y.values);
-        std::string name;
-        if (m.at.empty()) {
-          name = ending.substr(1);
-        } else {
-          name = literal(member_text(figure_.member, axes_, m.at));
-        }
         add_line(x_head, y_head, i, k, once ? "" : name);
       }
     }
   }
 
+  // x is a column of the members' curves, and the members are samples of fitted parameters: draws
+  // their mean and a band.
   void over_samples() {
     std::vector<const Column*> x;
     for (const SweepMember& m : members_) x.push_back(&column(m, "x", figure_.x));
@@ -282,7 +299,7 @@ class Drawer {
       std::vector<const Column*> y;
       for (const SweepMember& m : members_)
         y.push_back(&column(m, fmt::format("y[{}]", i), figure_.y[i]));
-      take_unit(i, y[0]->unit);
+      check_unit(i, y[0]->unit);
       const Band band = band_of(name_, x, y);
       const std::string unit = y[0]->unit;
       const std::string mean = table_.add(csv_name(figure_.y[i] + "_mean", unit), band.mean.values);
@@ -297,6 +314,7 @@ class Drawer {
     }
   }
 
+  // A column of a member's curves; refuses a name that it does not have.
   const Column& column(const SweepMember& m, const std::string& key,
                        const std::string& name) const {
     std::vector<std::string> known;
@@ -312,13 +330,17 @@ class Drawer {
     std::vector<std::string> names;
     for (const SweepMember& m : members_)
       for (const Summary& s : m.summary)
-        if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
+        if (std::ranges::find(names, s.name) == names.end()) names.push_back(s.name);
     return names;
   }
+
+  // Values on all axes but one.
   static std::vector<std::string> without(std::vector<std::string> at, std::size_t axis) {
     at.erase(at.begin() + static_cast<std::ptrdiff_t>(axis));
     return at;
   }
+
+  // The value on an axis as a number; refuses a word.
   double number(const std::string& word) const {
     double x = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);

@@ -12,7 +12,7 @@ namespace langer {
 
 namespace {
 
-// all as numbers, or nothing
+// The words as numbers; empty if one of them is not a number.
 std::vector<double> numbers(const std::vector<std::string>& words) {
   std::vector<double> found;
   for (const std::string& w : words) {
@@ -24,6 +24,7 @@ std::vector<double> numbers(const std::vector<std::string>& words) {
   return found;
 }
 
+// Writes the values of an axis. Words are stored as their index in the attribute `words`.
 void write_axis(const h5::Group& group, const SweepAxis& axis) {
   const std::vector<double> x = numbers(axis.values);
   if (x.size() == axis.values.size())
@@ -31,7 +32,7 @@ void write_axis(const h5::Group& group, const SweepAxis& axis) {
   std::vector<std::string> words;
   std::vector<std::int64_t> index;
   for (const std::string& value : axis.values) {
-    const auto at = std::find(words.begin(), words.end(), value);
+    const auto at = std::ranges::find(words, value);
     index.push_back(at - words.begin());
     if (at == words.end()) words.push_back(value);
   }
@@ -39,6 +40,7 @@ void write_axis(const h5::Group& group, const SweepAxis& axis) {
   group.annotate(axis.name, "words", fmt::format("{}", fmt::join(words, " ")));
 }
 
+// Writes the effects of a design as far as they could be computed.
 void write_effects(const h5::Group& root, const Design& design,
                    const std::vector<QuantityEffects>& effects) {
   const h5::Group all = root.make_group("effects");

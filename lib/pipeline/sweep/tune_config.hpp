@@ -5,6 +5,7 @@
 
 namespace langer {
 
+// Three members with a constant ratio of mesh sizes, for Richardson's extrapolation.
 struct RichardsonConfig {
   std::vector<std::string> coarse, middle, fine;
   double ratio = 2;
@@ -13,57 +14,61 @@ struct RichardsonConfig {
       "values on the axes of the coarsest of three members", required);
     v(&RichardsonConfig::middle, "middle", unit::none, "... of the next", required);
     v(&RichardsonConfig::fine, "fine", unit::none, "... of the finest", required);
-    v(&RichardsonConfig::ratio, "ratio", unit::none, "of the lengths of cells from one to the next",
+    v(&RichardsonConfig::ratio, "ratio", unit::none, "of the mesh sizes from one to the next",
       Range{1, 100, false, true});
   }
 };
 
+// A member with its mesh size.
 struct MemberOfLength {
   std::vector<std::string> member;
   double length = 0;
   static void fields(auto& v) {
     v(&MemberOfLength::member, "member", unit::none, "values on the axes of the member", required);
-    v(&MemberOfLength::length, "length", unit::none, "of its cells, in any unit", required,
+    v(&MemberOfLength::length, "length", unit::none, "its mesh size, in any unit", required,
       positive);
   }
 };
 
+// The limit f of q = f + A h^p, fitted to members with several mesh sizes h.
 struct FittedLimit {
   std::vector<MemberOfLength> members;
   double order = 2;
   static void fields(auto& v) {
-    v(&FittedLimit::members, "members", unit::none,
-      "three or more, with cells of different lengths", required);
-    v(&FittedLimit::order, "order", unit::none, "power of the length with which errors fall",
+    v(&FittedLimit::members, "members", unit::none, "three or more, with different mesh sizes",
+      required);
+    v(&FittedLimit::order, "order", unit::none, "order of convergence: power of the mesh size",
       Range{0, 10, false, true});
   }
   std::vector<Complaint> complaints() const {
     if (members.size() < 3)
       return {{"members", std::to_string(members.size()) + " members",
-               "three or more: two always lie on a line", ""}};
+               "three or more: two are always on a line", ""}};
     for (const MemberOfLength& m : members)
       if (m.length != members[0].length) return {};
-    return {{"members", "cells of one length", "different lengths", ""}};
+    return {{"members", "one mesh size", "different mesh sizes", ""}};
   }
 };
 
+// The reference value that errors are computed from: one of the three keys.
 struct TuneReference {
   std::vector<std::string> member;
   std::optional<FittedLimit> fitted;
   std::optional<RichardsonConfig> richardson;
   static void fields(auto& v) {
     v(&TuneReference::member, "member", unit::none,
-      "values on the axes of the member that counts as right; it is no level itself");
+      "values on the axes of the member that is the reference; it is not a level itself");
     v(&TuneReference::fitted, "fitted", unit::none,
-      "instead: what is left at length 0 of q = f + A length^order, fitted to members");
+      "or the limit f of q = f + A length^order, fitted to members");
     v(&TuneReference::richardson, "richardson", unit::none,
-      "instead: the limit of three members, of the order that they show");
+      "or the limit of three members, with the order of convergence that they show");
   }
   std::vector<Complaint> complaints() const {
     const int given = !member.empty() + fitted.has_value() + richardson.has_value();
     if (given == 1) return {};
-    return {{"", given == 0 ? "nothing" : "more than one of member, fitted and richardson",
-             "one of the three", ""}};
+    std::string found = "more than one of member, fitted and richardson";
+    if (given == 0) found = "nothing";
+    return {{"", found, "one of the three", ""}};
   }
 };
 
@@ -78,12 +83,14 @@ struct TuneConfig {
   static void fields(auto& v) {
     v(&TuneConfig::quantities, "quantities", unit::none,
       "names of the members' summaries whose errors matter", required);
-    v(&TuneConfig::reference, "reference", unit::none, "what counts as right", required);
+    v(&TuneConfig::reference, "reference", unit::none, "the value that errors are relative to",
+      required);
     v(&TuneConfig::wanted, "wanted", unit::none,
-      "errors in percent for which the cheapest level is told");
+      "errors in percent for which the cheapest level is printed");
     v(&TuneConfig::title, "title", unit::none, "above the pictures");
-    v(&TuneConfig::figure_style, "figure_style", unit::none, "how the pictures are made");
-    v(&TuneConfig::axes, "axes", unit::none, "what tells the levels apart; written by plan");
+    v(&TuneConfig::figure_style, "figure_style", unit::none, "style of the pictures");
+    v(&TuneConfig::axes, "axes", unit::none,
+      "axes of the sweep, in which the levels differ; written by plan");
     v(&TuneConfig::members, "members", unit::none,
       "one per file, in the same order; written by plan");
   }

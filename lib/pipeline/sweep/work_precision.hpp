@@ -1,11 +1,14 @@
-// Accuracy against cost over the levels of a refinement study: errors against a reference, the
-// front of levels that none beats in both, the cheapest level under a wanted error.
-//   error      |value - reference| / |reference|; of the whole study's table one column per quantity. What is smaller than the
-//              uncertainty of the reference is not known: it counts as large as that, and no level is told for less
-//   reference  a member of the study; or what members with cells of lengths h leave at h = 0, fitted as f + A h^p with a given p; or
-//              the limit that three members with cells in a constant ratio r point to:
-//                p = log((f1 - f2) / (f2 - f3)) / log r,   f = f3 + (f3 - f2) / (r^p - 1)                       [R11]
-//              where the differences do not shrink with one sign there is no such limit, and the finest stands for it
+// Accuracy against cost over the levels of a refinement study (work-precision diagram): errors
+// against a reference, the Pareto front of levels that no other level beats in both error and time,
+// and the cheapest level below a wanted error.
+//   error      |value - reference| / |reference|, one column per quantity. An error below the
+//              uncertainty of the reference is not known: it counts as large as that uncertainty.
+//   reference  a member of the study; or the limit f of f + A h^p for the mesh size h = 0, fitted to
+//              members with a given p; or the limit of three members whose mesh sizes have a
+//              constant ratio r (Richardson's extrapolation [R11]):
+//                p = log((f1 - f2) / (f2 - f3)) / log r,   f = f3 + (f3 - f2) / (r^p - 1)
+//              If the differences do not shrink with one sign there is no such limit, and the value
+//              of the finest mesh is used.
 #pragma once
 
 #include <string>
@@ -15,24 +18,26 @@ namespace langer {
 
 struct Limit {
   double value = 0;
-  double order = 0;        // p; 0 where the finest value stands for the limit
-  double uncertainty = 0;  // |limit - finest|, or the last difference where there is no limit
+  double order = 0;        // p; 0 if the finest value is used as the limit
+  double uncertainty = 0;  // |limit - finest|, or the last difference if there is no limit
 };
-// least squares; uncertainty: the standard error of f. Lengths: at least three, not all the same
+// The limit by least squares; its uncertainty is the standard error of f. At least three lengths,
+// not all the same.
 Limit fitted_limit(const std::vector<double>& lengths, const std::vector<double>& values,
                    double order);
 Limit richardson(double coarse, double middle, double fine, double ratio);
 
-// as large as the uncertainty of the reference, if smaller; no number stays none
+// The error, or the uncertainty of the reference if the error is smaller. NaN stays NaN.
 inline double known_error(double error, double uncertainty) {
-  return error < uncertainty ? uncertainty : error;
+  if (error < uncertainty) return uncertainty;
+  return error;
 }
 
-// Indices by rising cost, each with a smaller error (by more than rounding) than all before it.
-// Levels that are not a number are left out.
+// The Pareto front: indices by rising cost, each with a smaller error (by more than rounding) than
+// all before it. Levels whose cost or error is not finite are left out.
 std::vector<int> pareto_front(const std::vector<double>& cost, const std::vector<double>& error);
 
-// Least cost with an error of at most `wanted`; -1: none.
+// The level of least cost with an error of at most `wanted`; -1 if there is none.
 int cheapest(const std::vector<double>& cost, const std::vector<double>& error, double wanted);
 
 }  // namespace langer
