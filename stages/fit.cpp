@@ -46,22 +46,22 @@ void write_reached(const Job<FitConfig>& job, const FitProblem& problem, const F
     text += fmt::format("{},{},{},{},{}\n", csv_cell(names[i]), csv_cell(p.key),
                         found.best.p[static_cast<Eigen::Index>(i)], p.lower, p.upper);
   }
-  write_text_file(job.beside("reached.csv"), text);
+  write_text_file(job.side_file("reached.csv"), text);
   FitRecord record = fit_record(problem, found);
   if (scenes) record.curves = scenes->curves(found);
-  if (!record.tests.empty()) write_text_file(job.beside("reached_fit.csv"), fit_csv(record));
+  if (!record.tests.empty()) write_text_file(job.side_file("reached_fit.csv"), fit_csv(record));
   for (const NamedTable& table : curve_tables(record))
-    write_text_file(job.beside("reached_" + table.name + ".csv"), table.text);
+    write_text_file(job.side_file("reached_" + table.name + ".csv"), table.text);
   job.say(
       "the parameters that the search reached are in {}: start from them, or judge their curves",
-      job.beside("reached.csv"));
+      job.side_file("reached.csv"));
 }
 
 // of an earlier run that found no optimum
 void remove_reached(const Job<FitConfig>& job) {
   std::error_code ignored;
-  std::filesystem::remove(job.beside("reached.csv"), ignored);
-  std::filesystem::remove(job.beside("reached_fit.csv"), ignored);
+  std::filesystem::remove(job.side_file("reached.csv"), ignored);
+  std::filesystem::remove(job.side_file("reached_fit.csv"), ignored);
 }
 
 // The search of a fit with or without scenes.
@@ -105,10 +105,10 @@ void require_description(const Job<FitConfig>& job, const FitRecord& record) {
 // tables and figures of what was measured in scenes
 void write_curves_of_scenes(const Job<FitConfig>& job, const FitRecord& record) {
   for (const NamedTable& table : curve_tables(record))
-    write_text_file(job.beside(table.name + ".csv"), table.text);
+    write_text_file(job.side_file(table.name + ".csv"), table.text);
   if (!job.config.study || !job.config.study->figures) return;
   for (const std::string& line :
-       draw_curves(record.curves, job.config.figure_style, job.beside("")))
+       draw_curves(record.curves, job.config.figure_style, job.side_file("")))
     job.say("{}", line);
 }
 
@@ -122,10 +122,10 @@ void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
     one.measure = names(test.measure)[static_cast<std::size_t>(test.measure)];
     columns.tests.push_back(one);
   }
-  if (!columns.tests.empty()) require_replaceable_by(job.beside("fit.csv"), fit_csv(columns));
-  require_replaceable_by(job.beside("parameters.csv"), parameters_csv(columns));
+  if (!columns.tests.empty()) need_replaceable_by(job.side_file("fit.csv"), fit_csv(columns));
+  need_replaceable_by(job.side_file("parameters.csv"), parameters_csv(columns));
   for (const Card& card : cards(job.config.law)) {
-    require_replaceable_by(job.beside(card.file), card.text);
+    need_replaceable_by(job.side_file(card.file), card.text);
   }
 }
 
@@ -180,18 +180,19 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
         next.candidates);
     for (const std::string& line : study_lines(record.study)) job.say("{}", line);
     for (const std::string& line :
-         write_study_files(record.study, *config.study, config.figure_style, job.beside("")))
+         write_study_files(record.study, *config.study, config.figure_style, job.side_file("")))
       job.say("{}", line);
   }
-  if (!record.tests.empty()) write_text_file(job.beside("fit.csv"), fit_csv(record));
-  write_text_file(job.beside("parameters.csv"), parameters_csv(record));
+  if (!record.tests.empty()) write_text_file(job.side_file("fit.csv"), fit_csv(record));
+  write_text_file(job.side_file("parameters.csv"), parameters_csv(record));
   write_curves_of_scenes(job, record);
   if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 &&
       problem.tests[0].kind == TestKind::uniaxial)
     for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"),
-                                            config.figure_style, job.beside("")))
+                                            config.figure_style, job.side_file("")))
       job.say("{}", line);
-  for (const Card& card : cards(found.material)) write_text_file(job.beside(card.file), card.text);
+  for (const Card& card : cards(found.material))
+    write_text_file(job.side_file(card.file), card.text);
   write_material(job.output, found.material, record, job.identity);
   if (scenes) scenes->done();
   require_description(job, record);

@@ -1,6 +1,8 @@
 // langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file,
 // also as table.csv; figures and maps of all members.
+#include <algorithm>
 #include <cstdlib>
+#include <string_view>
 
 #include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 using Members = std::vector<SweepMember>;
 
-// The map of that name of every member.
+// The map of this name of every member; refuses a member without it.
 std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep& sweep,
                                        const Members& members, const std::string& name) {
   std::vector<const SurfaceMap*> found;
@@ -31,18 +33,17 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
     }
     if (found.size() == i + 1) continue;
     const std::string key = "maps." + name;
-    const std::string near = nearest(name, known);
+    std::string expected = "a file with maps: post has the key `maps`";
+    if (!known.empty()) expected = "one of " + list_words(known);
     throw Failure(Exit::config,
                   Error{job.where(key), key, fmt::format("{} has no such map", sweep.members[i]),
-                        known.empty() ? "a file with maps: post has the key `maps`"
-                                      : "one of " + list_words(known),
-                        did_you_mean(near)});
+                        expected, did_you_mean(nearest(name, known))});
   }
   return found;
 }
 
-// What figures may draw of a member: the columns and maps of curves.h5; of a fit strain, measured
-// stress, model and error.
+// The columns of a member that figures may draw: the columns and maps of curves.h5, or strain,
+// measured stress, model and error of a fit. Other files have none.
 Curves curves_in(const std::string& file) {
   const std::string schema = read_origin(file).schema;
   if (schema == curves_schema.name) return read_curves(file).curves;
@@ -62,11 +63,11 @@ Curves curves_in(const std::string& file) {
   return curves;
 }
 
+// The largest difference of each member's map from that of one member, in percent.
 SweepColumn differences(const Job<GatherConfig>& job, const Members& members,
                         const std::string& name, const std::vector<const SurfaceMap*>& maps) {
   const MapComparison& compare = *job.config.maps.at(name).compare;
-  const auto other = std::find_if(members.begin(), members.end(),
-                                  [&](const SweepMember& m) { return m.at == compare.with; });
+  const auto other = std::ranges::find(members, compare.with, &SweepMember::at);
   if (other == members.end()) {
     const std::string key = fmt::format("maps.{}.compare.with", name);
     std::vector<std::string> known;
@@ -84,7 +85,25 @@ SweepColumn differences(const Job<GatherConfig>& job, const Members& members,
   return column;
 }
 
-// The effects of a design on each column, with the values of its points as columns of the table.
+// Prints the effects of a design on one quantity, and draws them if the design asks for figures.
+void show_effects(const Job<GatherConfig>& job, const Design& design,
+                  const QuantityEffects& effects, Pictures& pictures) {
+  constexpr std::string_view warning = "warning: ";
+  for (const std::string& line : effects_lines(design, effects)) {
+    if (line.starts_with(warning))
+      job.warn("{}", line.substr(warning.size()));
+    else
+      job.say("{}", line);
+  }
+  if (!design.figures) return;
+  if (design.one_at_a_time || design.morris)
+    pictures.draw("effects_" + effects.name, bars(effects_bars(design, effects), pictures.look()));
+  if (design.sobol)
+    pictures.draw("shares_" + effects.name, bars(share_bars(design, effects), pictures.look()));
+}
+
+// The effects of a design on each column. The values of the design's points become the first
+// columns of the table.
 std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const Design& design,
                                           Sweep& sweep, Pictures& pictures) {
   const std::vector<VecX> points = design_points(design);
@@ -96,41 +115,35 @@ std::vector<QuantityEffects> effects_over(const Job<GatherConfig>& job, const De
   std::vector<QuantityEffects> effects;
   for (const SweepColumn& c : sweep.columns) {
     effects.push_back(effects_of(design, c.name, c.unit, c.values));
-    for (const std::string& line : effects_lines(design, effects.back()))
-      line.starts_with("warning: ") ? job.warn("{}", line.substr(9)) : job.say("{}", line);
-    if (!design.figures) continue;
-    if (design.one_at_a_time || design.morris)
-      pictures.draw("effects_" + c.name,
-                    bars(effects_bars(design, effects.back()), pictures.look()));
-    if (design.sobol)
-      pictures.draw("shares_" + c.name, bars(share_bars(design, effects.back()), pictures.look()));
+    show_effects(job, design, effects.back(), pictures);
   }
   for (std::size_t j = design.parameters.size(); j-- > 0;) {
     SweepColumn column{short_name(design.parameters[j]), design.parameters[j].unit, {}};
     for (const VecX& p : points) column.values.push_back(p[static_cast<Eigen::Index>(j)]);
     sweep.columns.insert(sweep.columns.begin(), std::move(column));
   }
-  write_text_file(job.beside("effects.csv"), effects_csv(design, effects));
+  write_text_file(job.side_file("effects.csv"), effects_csv(design, effects));
   return effects;
 }
 
-// The spread of each column over sets of parameters, which stand as columns of the table then.
+// The spread of each column over samples of fitted parameters. The parameters of each sample become
+// the first columns of the table.
 std::vector<Spread> spreads_over(const Job<GatherConfig>& job,
                                  const std::vector<GatherInput>& members, Sweep& sweep) {
   const auto refuse = [&](std::string found) {
     throw Failure(Exit::config,
                   Error{job.where("axes[0].samples"), "axes[0].samples", std::move(found),
-                        "--material with the fit whose sets of parameters they are", ""});
+                        "--material with the fit that the samples were drawn from", ""});
   };
   if (!job.has("material")) refuse("samples without the fit");
   const MaterialFile fitted = read_material(job.input("material"));
   std::vector<std::vector<Summary>> sets;
   for (const GatherInput& member : members) {
     const int number = std::atoi(member.at.at(0).c_str());
-    if (const std::string lacks =
-            number < 1 ? "no set of that number" : reason_without_samples(fitted, number);
-        !lacks.empty())
-      refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), lacks));
+    std::string reason = "no sample of this number";
+    if (number >= 1) reason = why_no_samples(fitted, number);
+    if (!reason.empty())
+      refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), reason));
     sets.push_back(sample_of(fitted, number).values);
   }
   const std::vector<SweepColumn> parameters = sampled_parameters(sets);
@@ -138,15 +151,15 @@ std::vector<Spread> spreads_over(const Job<GatherConfig>& job,
   for (const SweepColumn& c : sweep.columns)
     if (!c.name.starts_with("parameter_")) spreads.push_back(spread_of(c, parameters));
   for (const Spread& one : spreads) job.say("{}", in_words(one));
-  for (std::size_t j = parameters.size(); j-- > 0;)
-    if (std::none_of(sweep.columns.begin(), sweep.columns.end(),
-                     [&](const SweepColumn& c) { return c.name == parameters[j].name; }))
-      sweep.columns.insert(sweep.columns.begin(), parameters[j]);
-  write_text_file(job.beside("spread.csv"), spread_csv(spreads));
+  for (std::size_t j = parameters.size(); j-- > 0;) {
+    const auto same = std::ranges::find(sweep.columns, parameters[j].name, &SweepColumn::name);
+    if (same == sweep.columns.end()) sweep.columns.insert(sweep.columns.begin(), parameters[j]);
+  }
+  write_text_file(job.side_file("spread.csv"), spread_csv(spreads));
   return spreads;
 }
 
-// one row for each number that a fit found
+// The table of `rows: parameters`: one row for each fitted parameter of one fit.
 std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const auto refuse = [&](const std::string& found) {
@@ -156,7 +169,7 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   if (files.size() != 1) refuse(fmt::format("{} files", files.size()));
   if (read_origin(files[0]).schema != material_schema.name) refuse(files[0]);
   const std::optional<FitRecord> fit = read_material(files[0]).fit;
-  if (!fit) refuse("a material that no fit found");
+  if (!fit) refuse("a material that was not fitted");
   Sweep sweep;
   sweep.axes = {{"parameter", "-", {}}};
   sweep.columns = {{"true", "-", {}},
@@ -171,25 +184,22 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
     sweep.axes[0].values.push_back(p.name);
     for (std::size_t k = 0; k < 5; ++k) sweep.columns[k].values.push_back(row[k]);
   }
-  write_sweep(job.output, job.beside("table.csv"), sweep, nullptr, {}, job.identity);
+  write_sweep(job.output, job.side_file("table.csv"), sweep, nullptr, {}, job.identity);
   job.say("{} parameters", sweep.members.size());
   return {};
 }
 
-std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
+// Reads the summary of each file, with the name and the axis values that the config gives it. If
+// anything is drawn, the curves of each file are kept, too.
+std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& members) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const GatherConfig& config = job.config;
-  if (config.rows == GatherRows::parameters) return gather_parameters(job);
   if (!config.members.empty() && config.members.size() != files.size())
     throw Failure(Exit::config,
                   Error{job.where("members"), "members",
                         fmt::format("found {} members", config.members.size()),
                         fmt::format("one for each of the {} files given", files.size()), ""});
-  std::vector<SweepAxis> axes;
-  for (const GatherAxis& a : config.axes)
-    axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   std::vector<GatherInput> inputs;
-  Members members;
   const bool drawn = !config.figures.empty() || !config.maps.empty();
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {}, read_summary(files[i])};
@@ -207,12 +217,23 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     if (drawn) members.push_back({member.at, member.summary, curves_in(files[i])});
     inputs.push_back(std::move(member));
   }
+  return inputs;
+}
+
+std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
+  const GatherConfig& config = job.config;
+  if (config.rows == GatherRows::parameters) return gather_parameters(job);
+  Members members;
+  const std::vector<GatherInput> inputs = read_members(job, members);
+  std::vector<SweepAxis> axes;
+  for (const GatherAxis& a : config.axes)
+    axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
 
-  Pictures pictures(job.beside(""), config.figure_style);
+  Pictures pictures(job.side_file(""), config.figure_style);
   std::vector<QuantityEffects> effects;
-  const Design* design =
-      config.axes.empty() || !config.axes[0].design ? nullptr : &*config.axes[0].design;
+  const Design* design = nullptr;
+  if (!config.axes.empty() && config.axes[0].design) design = &*config.axes[0].design;
   if (design) effects = effects_over(job, *design, sweep, pictures);
   std::vector<Spread> spreads;
   std::vector<Band> bands;
@@ -230,19 +251,20 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
       return job.where(at + key);
     };
     const FigureData data = figure_over(figure, name, axes, members, where);
-    write_text_file(job.beside(name + ".csv"), data.csv);
+    write_text_file(job.side_file(name + ".csv"), data.csv);
     pictures.draw(name, data.plot);
     bands.insert(bands.end(), data.bands.begin(), data.bands.end());
   }
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
-  write_sweep(job.output, job.beside("table.csv"), sweep, design, effects, job.identity, spreads,
+  write_sweep(job.output, job.side_file("table.csv"), sweep, design, effects, job.identity, spreads,
               bands);
   job.say("{} rows, {} columns, {} figures", sweep.members.size(),
           sweep.axes.size() + sweep.columns.size(), config.figures.size() + config.maps.size());
   return {};
 }
 
+// The names of the files that the config asks for, in addition to sweep.h5.
 std::vector<std::string> side_files(const GatherConfig& config) {
   std::vector<std::string> names{"table.csv"};
   for (const auto& [name, figure] : config.figures) {

@@ -11,26 +11,29 @@
 namespace langer {
 namespace {
 
-std::string beside(const std::string& output, MeshFormat format) {
+// The name of an exported mesh: that of the output with another extension.
+std::string export_name(const std::string& output, MeshFormat format) {
   return std::filesystem::path(output)
       .replace_extension(names(format)[static_cast<int>(format)])
       .string();
 }
 
-// an exported file may not stand where the mesh comes from
-void spare_input(const Job<MeshConfig>& job) {
+// Refuses to export to the file that the mesh is read from.
+void check_exports(const Job<MeshConfig>& job) {
   const auto* from = std::get_if<FromFile>(&job.config.geometry);
+  if (!from) return;
   std::error_code unreadable;
-  for (const MeshFormat format : job.config.exports)
-    if (const std::string path = beside(job.output, format);
-        from && std::filesystem::equivalent(path, from->file.path, unreadable))
-      throw Failure(Exit::config,
-                    Error{job.where("export"), "export", path + " is the file that geometry names",
-                          "another name of the output", ""});
+  for (const MeshFormat format : job.config.exports) {
+    const std::string path = export_name(job.output, format);
+    if (!std::filesystem::equivalent(path, from->file.path, unreadable)) continue;
+    throw Failure(Exit::config,
+                  Error{job.where("export"), "export", path + " is the file that geometry names",
+                        "another name of the output", ""});
+  }
 }
 
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
-  spare_input(job);
+  check_exports(job);
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
   for (const std::string& note : notes) job.say("{}", note);
   job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(),
@@ -40,8 +43,9 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
           quality.least_scaled_jacobian);
   for (const auto& [name, nodes] : mesh.node_sets) {
     const auto facets = mesh.facet_sets.find(name);
-    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(),
-            facets == mesh.facet_sets.end() ? 0 : facets->second.size());
+    std::size_t n_facets = 0;
+    if (facets != mesh.facet_sets.end()) n_facets = facets->second.size();
+    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(), n_facets);
   }
   const std::vector<Summary> summary{{"nodes", static_cast<double>(mesh.n_nodes()), "-"},
                                      {"cells", static_cast<double>(mesh.n_cells()), "-"},
@@ -50,8 +54,11 @@ std::vector<Summary> mesh(const Job<MeshConfig>& job) {
                                      {"aspect", quality.largest_aspect, "-"},
                                      {"scaled_jacobian", quality.least_scaled_jacobian, "-"}};
   for (const MeshFormat format : job.config.exports) {
-    const std::string path = beside(job.output, format);
-    write_text_file(path, format == MeshFormat::msh ? msh_text(mesh) : inp_text(mesh));
+    const std::string path = export_name(job.output, format);
+    if (format == MeshFormat::msh)
+      write_text_file(path, msh_text(mesh));
+    else
+      write_text_file(path, inp_text(mesh));
     job.say("{}", path);
   }
   write_mesh(job.output, mesh, job.identity, summary);

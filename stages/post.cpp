@@ -290,14 +290,14 @@ void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution,
   const SolutionHeader& header = solution.reader.header();
   const SnapshotFields fields = snapshot_fields(solution.body, header, solution.record(row), row,
                                                 contacts, job.config.stress);
-  write_snapshot(job.beside(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points,
+  write_snapshot(job.side_file(fmt::format("snapshot_{:04}.hdf", row)), header.mesh, fields.points,
                  fields.cells, job.identity, t);
 }
 
 void write_series(const Job<PostConfig>& job, const Solution& solution,
                   const ContactStates& contacts) {
   const SolutionHeader& header = solution.reader.header();
-  make_folder_below(job.beside(""), job.beside("series"));
+  make_folder_below(job.side_file(""), job.side_file("series"));
   std::vector<std::pair<double, std::string>> files;
   for (int row = 0; row <= solution.reader.n_steps(); ++row) {
     StepRecord record = solution.record(row);
@@ -309,9 +309,9 @@ void write_series(const Job<PostConfig>& job, const Solution& solution,
     const SnapshotFields fields =
         snapshot_fields(solution.body, header, record, row, contacts, job.config.stress);
     files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
-    write_vtu(job.beside(files.back().second), header.mesh, record.t, fields.points, fields.cells);
+    write_vtu(job.side_file(files.back().second), header.mesh, record.t, fields.points, fields.cells);
   }
-  write_pvd(job.beside("series.pvd"), files);
+  write_pvd(job.side_file("series.pvd"), files);
 }
 
 void add_points(const Job<PostConfig>& job, const std::string& name, const FigurePoints& points,
@@ -319,7 +319,7 @@ void add_points(const Job<PostConfig>& job, const std::string& name, const Figur
   const PointColumns read = read_points(
       points, [&](const std::string& key) { return job.where("figures." + name + "." + key); });
   const std::string file = name + "_points.csv";
-  write_text_file(job.beside(file), csv({{points.x, "-", read.x}, {points.y, "-", read.y}}));
+  write_text_file(job.side_file(file), csv({{points.x, "-", read.x}, {points.y, "-", read.y}}));
   PlotLine line{file, points.x, points.y, points.legend};
   line.points = true;
   plot.lines.insert(plot.lines.begin(), line);
@@ -338,7 +338,7 @@ void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& co
 void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps,
                Pictures& pictures) {
   for (const SurfaceMap& map : maps) {
-    write_text_file(job.beside(map.name + ".csv"), csv(columns_of(map)));
+    write_text_file(job.side_file(map.name + ".csv"), csv(columns_of(map)));
     pictures.draw(map.name, map_drawing({{"", &map}}, job.config.maps.at(map.name).style, 1,
                                         pictures.look()));
   }
@@ -393,7 +393,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   for (int row : snapshots)
     write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
   if (config.series) write_series(job, solution, contacts);
-  Pictures pictures(job.beside(""), config.figure_style, config.draw == Draw::always);
+  Pictures pictures(job.side_file(""), config.figure_style, config.draw == Draw::always);
   // Scripts name the table as their own folder sees it.
   std::string table_file = csv_file.filename().string();
   if (job.side_folder != csv_file.parent_path()) table_file = "../" + table_file;

@@ -1,4 +1,4 @@
-// langer-sample: one of the sets of parameters that a fit leaves open, as a material.
+// langer-sample: one sample of the parameters of a fit, drawn from its covariance, as a material.
 //   langer-sample sample.yaml --material material.h5 --set number=17 -o sample/material.h5
 #include "core/hdf5/seal.hpp"
 #include "identification/inverse/parameter_sample.hpp"
@@ -14,17 +14,17 @@ std::vector<Summary> sample(const Job<SampleConfig>& job) {
   const std::string file = job.input("material");
   const MaterialFile fitted = read_material(file);
   const int number = job.config.number;
-  if (const std::string lacks = reason_without_samples(fitted, number); !lacks.empty())
+  if (const std::string reason = why_no_samples(fitted, number); !reason.empty())
     throw Failure(Exit::config, Error{job.where("number"), "number",
-                                      fmt::format("{}, and {} has {}", number, file, lacks),
-                                      "a set of a fit that tells how well its parameters are known",
-                                      "study: {bootstrap: 200} in the fit's config makes as many"});
+                                      fmt::format("{}, and {} has {}", number, file, reason),
+                                      "a sample of a fit with a covariance or a bootstrap",
+                                      "study: {bootstrap: 200} in the fit's config makes 200"});
   const ParameterSample set = sample_of(fitted, number);
   if (at_rest(set.law) == AtRest::without_stiffness)
     throw Failure(Exit::input,
                   Error{{file},
                         "",
-                        fmt::format("set {}: a law with {}", number, at_rest_in_words(set.law)),
+                        fmt::format("sample {}: a law with {}", number, at_rest_in_words(set.law)),
                         stiffness_at_rest_cure(set.law),
                         "a lower bound above 0 in the fit"});
   job.say("{}", set.words);

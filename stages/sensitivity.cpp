@@ -1,8 +1,10 @@
 // langer-sensitivity: which parameters of a material decide its stress in a test, and at which
 // strains.
-//   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5     also CSV tables and figures beside it
+//   langer-sensitivity abdomen.yaml --material material.h5 -o sensitivity.h5
+// CSV tables and figures are written next to the output.
 #include <memory>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
 #include "identification/sensitivity/long_work.hpp"
 #include "identification/sensitivity/ranking.hpp"
@@ -14,14 +16,16 @@
 namespace langer {
 namespace {
 
+// The fit of a material file; a YAML file has none.
 std::optional<FitRecord> fit_of(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension();
   if (extension == ".yaml" || extension == ".yml") return std::nullopt;
   return read_material(path).fit;
 }
 
-// The fit's ties that hold here: in a sheet that is turned, and not of numbers that are ranked
-// themselves.
+// The ties of a fit that apply here. A tie of a ranked parameter is dropped, because the parameter
+// varies on its own. If the sheet is turned by an angle, both angles a and b of a tie b = factor a
+// + offset are turned, which adds turn (1 - factor) to the offset.
 std::vector<Tie> ties_in(const FitRecord& fit, Material& material,
                          const std::vector<std::string>& keys, double turn) {
   std::vector<Tie> ties;
@@ -35,8 +39,8 @@ std::vector<Tie> ties_in(const FitRecord& fit, Material& material,
   return ties;
 }
 
-// The stress over the strains as a function of the ranked numbers; every copy has a material of its
-// own.
+// The stress at the strains as a function of the ranked parameters. Each copy of the function has
+// its own material, so that threads do not share one.
 CurveMaker stress_of(const SensitivityConfig& config, const Material& material,
                      const std::vector<std::string>& keys, const std::vector<Tie>& ties,
                      const std::vector<double>& strain) {
@@ -51,9 +55,11 @@ CurveMaker stress_of(const SensitivityConfig& config, const Material& material,
       for (std::size_t j = 0; j < numbers.size(); ++j)
         *numbers[j] = p[static_cast<Eigen::Index>(j)];
       tied->follow();
-      const auto sigma = config.dilatation == Dilatation::compressible
-                             ? uniaxial_curve(*own, strain, config.stress, config.dilatation)
-                             : path_curve(*own, config.test, strain, config.stress);
+      std::optional<std::vector<double>> sigma;
+      if (config.dilatation == Dilatation::compressible)
+        sigma = uniaxial_curve(*own, strain, config.stress, config.dilatation);
+      else
+        sigma = path_curve(*own, config.test, strain, config.stress);
       if (sigma)
         y = Eigen::Map<const VecX>(sigma->data(), static_cast<Eigen::Index>(sigma->size()));
       return sigma.has_value();
@@ -61,10 +67,10 @@ CurveMaker stress_of(const SensitivityConfig& config, const Material& material,
   };
 }
 
-// Samples where the law has no state are left out: a few change little, many make the numbers those
-// of another box.
-void need_samples(const Job<SensitivityConfig>& job, const std::string& method, long used,
-                  long without, long least) {
+// Samples without a state of the material are left out. A few of them change little; if there are
+// many, the results are those of other bounds, so too few remaining samples are refused.
+void check_samples(const Job<SensitivityConfig>& job, const std::string& method, long used,
+                   long without, long least) {
   if (used < least)
     throw Failure(Exit::not_converged,
                   {job.where(method), method,
@@ -73,6 +79,28 @@ void need_samples(const Job<SensitivityConfig>& job, const std::string& method, 
   if (without > 0)
     job.warn("{}: {} of {} samples have no state at some strain and are left out", method, without,
              used + without);
+}
+
+// Effects of one parameter at a time. The material must have a state at all these points.
+void add_one_at_a_time(const Job<SensitivityConfig>& job, const CurveMaker& stress,
+                       const VecX& value, const VecX& lower, const VecX& upper,
+                       SensitivityRecord& record) {
+  VecX curve;
+  if (stress()(value, curve)) {
+    record.curve.assign(curve.data(), curve.data() + curve.size());
+    record.effects = one_at_a_time(stress(), value, lower, upper, job.config.steps);
+  } else {
+    record.effects.missing = value;
+  }
+  if (record.effects.complete) return;
+  std::string point;
+  for (Eigen::Index j = 0; j < value.size(); ++j)
+    append(point, ", ",
+           fmt::format("{} = {:.6g}", record.parameters[static_cast<std::size_t>(j)].name,
+                       record.effects.missing[j]));
+  throw Failure(Exit::not_converged,
+                {job.where("parameters"), "parameters", "no state exists at " + point, "",
+                 "narrower bounds or a smaller strain.to"});
 }
 
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
@@ -89,32 +117,19 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   for (const auto& [from, to] : config.zones) record.zones.push_back({from, to});
 
   const auto k = static_cast<Eigen::Index>(chosen.numbers.size());
-  VecX value(k), lower(k), upper(k);
+  VecX value(k);
+  VecX lower(k);
+  VecX upper(k);
   for (Eigen::Index j = 0; j < k; ++j) {
     const RankedNumber& n = record.parameters[static_cast<std::size_t>(j)];
     value[j] = n.value;
     lower[j] = n.lower;
     upper[j] = n.upper;
   }
-  const CurveMaker stress = stress_of(
-      config, material, chosen.keys,
-      fit ? ties_in(*fit, material, chosen.keys, config.turn) : std::vector<Tie>(), record.strain);
-  VecX curve;
-  if (stress()(value, curve)) {
-    record.curve.assign(curve.data(), curve.data() + curve.size());
-    record.effects = one_at_a_time(stress(), value, lower, upper, config.steps);
-  } else
-    record.effects.missing = value;
-  if (!record.effects.complete) {
-    std::string at;
-    for (Eigen::Index j = 0; j < k; ++j)
-      at += fmt::format("{}{} = {:.6g}", j ? ", " : "",
-                        record.parameters[static_cast<std::size_t>(j)].name,
-                        record.effects.missing[j]);
-    throw Failure(Exit::not_converged,
-                  {job.where("parameters"), "parameters", "no state exists at " + at, "",
-                   "narrower bounds or a smaller strain.to"});
-  }
+  std::vector<Tie> ties;
+  if (fit) ties = ties_in(*fit, material, chosen.keys, config.turn);
+  const CurveMaker stress = stress_of(config, material, chosen.keys, ties, record.strain);
+  add_one_at_a_time(job, stress, value, lower, upper, record);
   job.say(
       "one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen",
       config.steps, k, config.strain.points);
@@ -127,21 +142,21 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
     options.progress = progress_of("sensitivity", "Morris", job.quiet);
     record.morris =
         morris(stress, lower, upper, config.morris->trajectories, config.morris->levels, options);
-    need_samples(job, "morris", record.morris->trajectories, record.morris->without_curve, 2);
+    check_samples(job, "morris", record.morris->trajectories, record.morris->without_curve, 2);
   }
   if (config.sobol) {
     options.progress = progress_of("sensitivity", "Sobol", job.quiet);
     options.sequence = config.sobol->sequence;
     record.sobol = sobol(stress, lower, upper, config.sobol->samples, options);
-    need_samples(job, "sobol", record.sobol->rows, record.sobol->without_curve, 64);
+    check_samples(job, "sobol", record.sobol->rows, record.sobol->without_curve, 64);
   }
   for (const std::string& line : sensitivity_lines(record)) job.say("{}", line);
-  write_text_file(job.beside("sensitivity.csv"), effects_csv(record));
-  write_text_file(job.beside("sensitivity_zones.csv"), zones_csv(record));
-  if (record.morris) write_text_file(job.beside("sensitivity_morris.csv"), morris_csv(record));
-  if (record.sobol) write_text_file(job.beside("sensitivity_sobol.csv"), sobol_csv(record));
+  write_text_file(job.side_file("sensitivity.csv"), effects_csv(record));
+  write_text_file(job.side_file("sensitivity_zones.csv"), zones_csv(record));
+  if (record.morris) write_text_file(job.side_file("sensitivity_morris.csv"), morris_csv(record));
+  if (record.sobol) write_text_file(job.side_file("sensitivity_sobol.csv"), sobol_csv(record));
   if (config.figures)
-    for (const std::string& line : draw_sensitivity(record, config.figure_style, job.beside("")))
+    for (const std::string& line : draw_sensitivity(record, config.figure_style, job.side_file("")))
       job.say("{}", line);
   write_sensitivity(job.output, record, job.identity);
   return summary_of(record);

@@ -1,8 +1,11 @@
-// What the program of a stage does around its work: arguments, config, input files, identity, exit
-// code.
+// The frame of a stage's program: arguments, config, input files, identity of the run, and exit
+// code. A stage itself is one function: it reads the inputs of its job, computes, writes
+// job.output, and returns the numbers that --json prints.
 //
-//   std::vector<Summary> mesh(const Job<MeshConfig>& job);   // reads, computes, writes job.output; returns what --json prints
-//   int main(int argc, char** argv) { return langer::run_stage<MeshConfig>(argc, argv, "mesh", mesh); }
+//   std::vector<Summary> mesh(const Job<MeshConfig>& job);
+//   int main(int argc, char** argv) {
+//     return langer::run_stage<MeshConfig>(argc, argv, "mesh", mesh);
+//   }
 #pragma once
 
 #include <filesystem>
@@ -22,19 +25,19 @@ namespace langer {
 
 // A stage's task, whatever its config.
 struct Task {
-  Where where;  // place of a config key, for errors found later
+  Where where;  // the place of a config key, for messages
   InputFiles inputs;
   std::string output;       // main output file
-  std::string side_folder;  // of the side files: beside the output (results/store/side_files.hpp)
+  std::string side_folder;  // folder of tables and figures (results/store/side_files.hpp)
   Identity identity;
   bool quiet = false;
   bool verbose = false;
   bool json = false;
-  bool dry_run = false;  // only with stages that forecast
+  bool dry_run = false;  // only for stages that estimate their time and memory
 
   bool has(const std::string& port) const { return inputs.count(port) > 0; }
   const std::string& input(const std::string& port) const { return inputs.at(port).front(); }
-  std::string beside(const std::string& name) const {
+  std::string side_file(const std::string& name) const {
     return (std::filesystem::path(side_folder) / name).string();
   }
 
@@ -43,7 +46,7 @@ struct Task {
   void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
     voice().say(form, std::forward<Parts>(parts)...);
   }
-  // with --quiet too
+  // A warning is printed with --quiet, too.
   template <class... Parts>
   void warn(fmt::format_string<Parts...> form, Parts&&... parts) const {
     voice().warn(fmt::format(form, std::forward<Parts>(parts)...));
@@ -55,11 +58,11 @@ struct Job : Task {
   Config config;
 };
 
-// What of a program depends on the type of its config.
+// The parts of a program that depend on the type of its config.
 struct StageWork {
   std::function<ReadConfig(Tree)> read;  // throws Failure(config)
   std::function<std::vector<Summary>()> work;
-  std::function<std::vector<std::string>()> side_files;  // names that the config asks for
+  std::function<std::vector<std::string>()> side_files;  // names of the files the config asks for
 };
 int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own);
 
@@ -76,7 +79,8 @@ int run_stage(int argc, char** argv, const std::string& name,
     return work(job);
   };
   own.side_files = [&job, side_files] {
-    return side_files ? side_files(job.config) : std::vector<std::string>();
+    if (!side_files) return std::vector<std::string>();
+    return side_files(job.config);
   };
   return run_stage(argc, argv, name, job, own);
 }

@@ -1,7 +1,9 @@
-// langer-tune tune.yaml --curves a/curves.h5 --curves b/curves.h5 -o levels.h5: errors against CPU
-// seconds and memory of every level, also as levels.csv; the front of each quantity as picture and
-// CSV, with bars as long as the reference is uncertain; the cheapest level for each error wanted
-// that is not below that.
+// langer-tune: the work-precision diagram of a refinement study.
+//   langer-tune tune.yaml --curves a/curves.h5 --curves b/curves.h5 -o levels.h5
+//
+// Writes errors, CPU seconds and memory of every level (also levels.csv); the Pareto front of each
+// quantity as a picture and CSV, with bars for the uncertainty of the reference; and the cheapest
+// level for each wanted error that is not below that uncertainty (cheapest.csv).
 #include <cmath>
 
 #include "core/hdf5/seal.hpp"
@@ -16,10 +18,12 @@
 namespace langer {
 namespace {
 
+// The levels of a refinement study with the cost of each.
 struct Levels {
   std::vector<GatherInput> members;
   std::vector<Cost> cost;
 
+  // The level with these values on the axes; refuses values that no level has.
   std::size_t at(const Job<TuneConfig>& job, const std::string& key,
                  const std::vector<std::string>& at) const {
     std::vector<std::string> known;
@@ -33,6 +37,8 @@ struct Levels {
   }
 };
 
+// Reads the levels. The cost of a solution that was continued, or made by an older version, is not
+// known (NaN).
 Levels levels_of(const Job<TuneConfig>& job) {
   const std::vector<std::string>& files = job.inputs.at("curves");
   const TuneConfig& config = job.config;
@@ -51,7 +57,7 @@ Levels levels_of(const Job<TuneConfig>& job) {
     const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
     if (!cost)
       job.say(
-          "{}: its solution was made in several runs, or by an older version: what it took is not known",
+          "{}: its solution was made in several runs, or by an older version: its cost is not known",
           member.path);
     levels.members.push_back(std::move(member));
     levels.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
@@ -61,14 +67,17 @@ Levels levels_of(const Job<TuneConfig>& job) {
 
 struct Reference {
   Limit limit;
-  std::vector<std::size_t> of_truth;  // members that stand for the truth
+  std::vector<std::size_t> members;  // levels that the reference is taken from: they have no error
 };
+
+// The reference value of one quantity: a fitted limit, a member, or Richardson's extrapolation.
 
 Reference reference_of(const Job<TuneConfig>& job, const Levels& levels,
                        const std::vector<double>& values) {
   const TuneReference& wanted = job.config.reference;
   if (wanted.fitted) {
-    std::vector<double> lengths, of_members;
+    std::vector<double> lengths;
+    std::vector<double> of_members;
     for (std::size_t i = 0; i < wanted.fitted->members.size(); ++i) {
       const MemberOfLength& m = wanted.fitted->members[i];
       lengths.push_back(m.length);
@@ -92,12 +101,13 @@ std::string name_of(const GatherInput& member) {
   return fmt::format("{}", fmt::join(member.at, " "));
 }
 
-// errors of one quantity, in percent of its reference
+// Errors of one quantity, in percent of its reference.
 struct LevelErrors {
-  std::vector<double> all = {};    // of each member
-  std::vector<double> found = {};  // no number for those that stand for the truth
-  double uncertain = 0;            // the reference
-  std::vector<int> front = {};     // of what is known of them
+  std::vector<double> all = {};    // of each level
+  std::vector<double> found = {};  // NaN for levels that the reference is taken from
+  double uncertain = 0;            // uncertainty of the reference
+  std::vector<int> front = {};     // the Pareto front of the known errors
+  // Errors, or the uncertainty of the reference where it is larger.
   std::vector<double> known() const {
     std::vector<double> known;
     for (double e : found) known.push_back(known_error(e, uncertain));
@@ -105,16 +115,18 @@ struct LevelErrors {
   }
 };
 
+// Writes error_<quantity>.csv and error_<quantity>_front.csv, and draws the work-precision diagram.
+// The levels of the front are numbered in the picture; their names are notes below it, because
+// names of this length would overlap next to the points.
 void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& quantity,
           const Levels& levels, const std::vector<double>& cpu, const LevelErrors& errors) {
   const std::string name = "error_" + quantity;
   const std::string head = "level,cpu_s,error_percent,error_low,error_high";
   std::string all = head + "\n";
   std::string best = head + ",number\n";
-  std::vector<std::string>
-      notes;  // names as long as these would stand on each other beside the points
+  std::vector<std::string> notes;
   const auto line = [&](std::size_t i) {
-    // an end of 0 has no place on a logarithmic axis
+    // The lower end of an error bar must not be 0 on a logarithmic axis.
     const double e = errors.found[i];
     const double low = std::max(e - errors.uncertain, 0.1 * e);
     return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", csv_cell(name_of(levels.members[i])),
@@ -122,13 +134,14 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   };
   for (std::size_t i = 0; i < cpu.size(); ++i)
     if (std::isfinite(cpu[i]) && errors.found[i] > 0) all += line(i) + "\n";
-  for (int i : errors.front)
-    if (const auto k = static_cast<std::size_t>(i); errors.found[k] > 0) {
-      best += line(k) + fmt::format(",{}\n", notes.size() + 1);
-      notes.push_back(fmt::format("{}  {}", notes.size() + 1, name_of(levels.members[k])));
-    }
-  write_text_file(job.beside(name + ".csv"), all);
-  write_text_file(job.beside(name + "_front.csv"), best);
+  for (int i : errors.front) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!(errors.found[k] > 0)) continue;
+    best += line(k) + fmt::format(",{}\n", notes.size() + 1);
+    notes.push_back(fmt::format("{}  {}", notes.size() + 1, name_of(levels.members[k])));
+  }
+  write_text_file(job.side_file(name + ".csv"), all);
+  write_text_file(job.side_file(name + "_front.csv"), best);
   Plot plot;
   plot.title = job.config.title;
   plot.x_label = "CPU time (s)";
@@ -146,7 +159,7 @@ void draw(const Job<TuneConfig>& job, Pictures& pictures, const std::string& qua
   pictures.draw(name, plot);
 }
 
-// lines of cheapest.csv
+// Prints the cheapest level for each wanted error; returns the lines of cheapest.csv.
 std::string choose(const Job<TuneConfig>& job, const std::string& quantity, const Levels& levels,
                    const std::vector<double>& cpu, const std::vector<double>& memory,
                    const LevelErrors& errors) {
@@ -154,16 +167,19 @@ std::string choose(const Job<TuneConfig>& job, const std::string& quantity, cons
   for (double wanted : job.config.wanted) {
     const int i = cheapest(cpu, errors.known(), wanted);
     if (i < 0) {
-      const bool unknown = wanted < errors.uncertain;
-      job.say("  {:g} %: {}", wanted,
-              unknown ? "not told, the reference itself is not known to that" : "no level");
+      if (wanted < errors.uncertain)
+        job.say("  {:g} %: not known, the reference itself is not that accurate", wanted);
+      else
+        job.say("  {:g} %: no level", wanted);
       choice += fmt::format("{},{:g},,,,\n", quantity, wanted);
       continue;
     }
     const auto k = static_cast<std::size_t>(i);
     const double error = errors.known()[k];
+    std::string bound;
+    if (errors.found[k] < errors.uncertain) bound = "at most ";
     job.say("  {:g} %: {} ({}{:.2g} %, {:.3g} s, {:.0f} MB)", wanted, name_of(levels.members[k]),
-            errors.found[k] < errors.uncertain ? "at most " : "", error, cpu[k], memory[k]);
+            bound, error, cpu[k], memory[k]);
     choice += fmt::format("{},{:g},{},{:.4g},{:.4g},{:.4g}\n", csv_cell(quantity), wanted,
                           csv_cell(name_of(levels.members[k])), error, cpu[k], memory[k]);
   }
@@ -176,9 +192,18 @@ LevelErrors errors_of(const std::vector<double>& values, const std::vector<doubl
   LevelErrors errors{.uncertain = 100 * reference.limit.uncertainty / std::abs(right)};
   for (double v : values) errors.all.push_back(100 * std::abs(v - right) / std::abs(right));
   errors.found = errors.all;
-  for (std::size_t i : reference.of_truth) errors.found[i] = NAN;
+  for (std::size_t i : reference.members) errors.found[i] = NAN;
   errors.front = pareto_front(cpu, errors.known());
   return errors;
+}
+
+// The uncertainty and the order of an extrapolated reference; empty for a member.
+std::string reference_words(const Job<TuneConfig>& job, const LevelErrors& errors,
+                            const Limit& limit) {
+  if (!job.config.reference.member.empty()) return "";
+  std::string order = ", no order seen";
+  if (limit.order > 0) order = fmt::format(", order {:.2g}", limit.order);
+  return fmt::format(" +- {:.2g} %{}", errors.uncertain, order);
 }
 
 std::vector<Summary> tune(const Job<TuneConfig>& job) {
@@ -197,7 +222,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   sweep.columns.push_back({"wall", "s", wall});
   sweep.columns.push_back({"memory", "MB", memory});
 
-  Pictures pictures(job.beside(""), job.config.figure_style);
+  Pictures pictures(job.side_file(""), job.config.figure_style);
   std::string choice = "quantity,wanted_percent,level,error_percent,cpu_s,memory_MB\n";
   std::vector<Summary> summary;
   for (const SweepColumn& column : values.columns) {
@@ -205,12 +230,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     const double right = reference.limit.value;
     const LevelErrors errors = errors_of(column.values, cpu, reference);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
-            job.config.reference.member.empty()
-                ? fmt::format(" +- {:.2g} %{}", errors.uncertain,
-                              reference.limit.order > 0
-                                  ? fmt::format(", order {:.2g}", reference.limit.order)
-                                  : ", no order seen")
-                : "");
+            reference_words(job, errors, reference.limit));
     std::vector<double> on_front(cpu.size(), 0);
     for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
     sweep.columns.push_back({column.name + "_error", "percent", errors.all});
@@ -223,8 +243,8 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   }
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
-  write_text_file(job.beside("cheapest.csv"), choice);
-  write_sweep(job.output, job.beside("levels.csv"), sweep, nullptr, {}, job.identity);
+  write_text_file(job.side_file("cheapest.csv"), choice);
+  write_sweep(job.output, job.side_file("levels.csv"), sweep, nullptr, {}, job.identity);
   return summary;
 }
 

@@ -54,11 +54,12 @@ bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
     if (name.rfind("-", 0) == 0 && !usage.find(name))
       throw std::logic_error("the option " + name + " is not in the table of usage");
   }
-  for (int i = 1; i < argc; ++i)
-    if (const std::string a = argv[i]; a == "--help" || a == "-h") {
-      put_out(help_text(usage));
-      return false;
-    }
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument != "--help" && argument != "-h") continue;
+    put_out(help_text(usage));
+    return false;
+  }
   try {
     app.parse(argc, argv);
     return true;
@@ -67,13 +68,13 @@ bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
     code = app.exit(asked, text, text);
     put_out(text.str());
   } catch (const CLI::ParseError& e) {
-    // an unknown option says more than the required one that is missing because of it
-    for (const std::string& extra : app.remaining())
-      if (extra.rfind("-", 0) == 0) {
-        const std::string near = nearest(extra, known);
-        say_error(fmt::format("{}: unknown option {}{}", app.get_name(), extra,
-                              near.empty() ? "" : "; did you mean " + near + "?"));
-      }
+    // A misspelt option is reported before the required option that is missing because of it.
+    for (const std::string& extra : app.remaining()) {
+      if (!extra.starts_with("-")) continue;
+      std::string hint = nearest(extra, known);
+      if (!hint.empty()) hint = "; did you mean " + hint + "?";
+      say_error(fmt::format("{}: unknown option {}{}", app.get_name(), extra, hint));
+    }
     say_error(fmt::format("{}: {}\n  hint: {} --help", app.get_name(), e.what(), app.get_name()));
     code = static_cast<int>(Exit::config);
   }

@@ -1,5 +1,5 @@
-// The options of a program, read by CLI11, which is named nowhere else. They stand in the table of
-// usage with their words; --help is one of all.
+// The options of a program, read by CLI11, which no other file includes. Their help texts are in
+// the table of cli/usage.hpp; all programs have --help.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,19 @@ class Arguments {
   explicit Arguments(std::string program);
   ~Arguments();
 
-  // where the value goes; a name without dashes is a place
+  // Each function names an option and the variable that gets its value. A name without dashes is a
+  // positional argument.
   void flag(const std::string& name, bool& given = nowhere);
   void text(const std::string& name, std::string& given, bool required = false);
-  // one value each time it is named; of a place all that stand there
+  // One value each time the option is given; a positional argument gets all values.
   void texts(const std::string& name, std::vector<std::string>& given, bool required = false);
-  // as text(), into a list of one
+  // As text(), with a list of one value.
   void text(const std::string& name, std::vector<std::string>& given, bool required);
   void version();
 
-  // False if the program has said all it was asked for, then `code` is its exit code. --help and
-  // --version are answered whatever else is missing. An option that the table lacks is an error of
-  // ours: throws std::logic_error.
+  // Reads the command line. False if nothing is left to do (--help, --version, an error), then
+  // `code` is the exit code. --help and --version are answered even if required arguments are
+  // missing. Throws std::logic_error if the table of usage lacks an option, which is a bug.
   bool read(const Usage& usage, int argc, char** argv, int& code);
 
  private:

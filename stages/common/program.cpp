@@ -60,13 +60,13 @@ RunLog::~RunLog() {
   if (said::log) std::fclose(std::exchange(said::log, nullptr));
 }
 
-void RunLog::open(const std::string& path, const std::string& command, bool goes_on) {
+void RunLog::open(const std::string& path, const std::string& command, bool continued) {
   if (said::silent) return;
-  require_own_log(path);
-  std::error_code failed;  // a folder that cannot be made has no file either
+  need_own_log(path);
+  std::error_code failed;  // if the folder cannot be made, opening the file fails below
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);
-  said::log = open_log_file(path, goes_on);
+  said::log = open_log_file(path, continued);
   if (!said::log)
     throw Failure(Exit::input, Error{{path},
                                      "",
@@ -80,34 +80,37 @@ void RunLog::open(const std::string& path, const std::string& command, bool goes
 
 namespace {
 
-// of programs that were started here and have ended: gnuplot
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+// CPU seconds of programs that were started here and have ended, such as gnuplot.
 double cpu_seconds_of_children() {
   rusage used{};
   if (getrusage(RUSAGE_CHILDREN, &used) != 0) return 0;
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-// read by the table of a run's times (pipeline/run_state.hpp)
+// The last line of a log, which `langer times` reads (cli/run_state.hpp).
 void end_log(int code) {
   if (said::log)
     fmt::print(said::log, "# end: exit {}, {:.2f} s, {:.2f} s of CPU, {:.0f} MB\n", code,
                wall_seconds(), cpu_seconds() + cpu_seconds_of_children(), 1e-6 * peak_bytes());
 }
 
-// why this rank has failed, where the one that speaks has not
-void say_of_rank(const char* why) { std::fprintf(stderr, "rank %d: %s\n", launched().rank, why); }
+// Prints why this rank has failed while rank 0, which prints all messages, has not.
+void print_rank_error(const char* reason) {
+  std::fprintf(stderr, "rank %d: %s\n", launched().rank, reason);
+}
 
-// The end of a program whose work is done. Where memory or disk have run out, libraries hang or
-// crash in their own farewells (OpenBLAS joins a thread that waits for memory, HDF5 writes again
-// what could not be written): they are not asked for any.
+// Ends a program whose work is done. If memory or disk have run out, libraries hang or crash in
+// their own clean-up: OpenBLAS joins a thread that waits for memory, and HDF5 tries again to write
+// data that could not be written. So _exit() skips it.
 [[noreturn]] void leave(int code) {
   std::fflush(nullptr);
-  if (said::silent && !ranks() && code != 0)
-    sleep(1);  // the first to fail ends all: let it be the one that speaks
-  if (ranks()) code = ranks()->end(code, code != 0, say_of_rank, said::unsaid);
+  // The first rank that fails ends all others. Wait, so that it is the one with the message.
+  if (said::silent && !ranks() && code != 0) sleep(1);
+  if (ranks()) code = ranks()->end(code, code != 0, print_rank_error, said::unsaid);
   if (ranks() || code != static_cast<int>(Exit::input)) end_petsc();
 #ifdef LANGER_SANITIZE
   __lsan_do_leak_check();
@@ -115,30 +118,31 @@ void say_of_rank(const char* why) { std::fprintf(stderr, "rank %d: %s\n", launch
   _exit(code);
 }
 
-// Runs the body and turns what it throws into a message and an exit code.
+int report_no_memory(const std::string& program, const char* detail) {
+  say_line(
+      "{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)",
+      program, detail);
+  return static_cast<int>(Exit::input);
+}
+
+// Runs the body and turns an exception into a message and an exit code.
 int exit_code_after(const std::string& program, const std::function<int()>& body) {
-  wall_seconds();
-  const auto no_memory = [&](const char* what) {
-    say_line(
-        "{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)",
-        program, what);
-    return static_cast<int>(Exit::input);
-  };
+  wall_seconds();  // starts the clock
   listen_to_signals(said::silent);
   set_traps();
   try {
     return body();
-  } catch (const EndedByRoot&) {
-    return static_cast<int>(Exit::ok);  // with the code of rank 0
+  } catch (const EndedByFirst&) {
+    return static_cast<int>(Exit::ok);  // all ranks end with the code of rank 0
   } catch (const Failure& failure) {
     say_error(failure.what());
     return static_cast<int>(failure.code());
   } catch (const std::bad_alloc&) {
-    return no_memory("");
+    return report_no_memory(program, "");
   } catch (const std::system_error& e) {
     if (e.code() == std::errc::resource_unavailable_try_again ||
         e.code() == std::errc::not_enough_memory)
-      return no_memory(": no further thread can be started");
+      return report_no_memory(program, ": no further thread can be started");
     say_line("{}: {}", program, e.what());
     return static_cast<int>(Exit::input);
   } catch (const std::exception& e) {

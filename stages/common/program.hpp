@@ -1,7 +1,8 @@
-// What every program of ours does around its work: data on stdout, a log, signals, and a message
-// and an exit code for what is thrown.
+// The frame of every program: data on stdout, a log, signals, and a message with an exit code for
+// each exception.
 //
-// stdout is for data (--json, --describe); stderr for everything said to the person who waits.
+// stdout has data only (--json, --describe), so that it can be read by another program; all
+// messages are on stderr.
 #pragma once
 
 #include <functional>
@@ -9,25 +10,27 @@
 
 namespace langer {
 
-// Data on stdout, to its end; a reader who has seen enough (`| head`) is no error, a full disk is:
-// throws Failure(input).
+// Writes data to stdout. A closed pipe (`| head`) is not an error; a full disk is: throws
+// Failure(input).
 void put_out(const std::string& text);
 
 std::string version_line(const std::string& program);
 std::string command_line(int argc, char** argv);
 
-// What --log keeps: all that is said, and how it ended.
+// The file of --log: all messages, and a last line with exit code, time and memory.
 class RunLog {
  public:
   ~RunLog();
-  // `goes_on`: the run may continue one that was stopped. Throws Failure(input).
-  void open(const std::string& path, const std::string& command, bool goes_on);
+  // `continued`: the run may continue one that was stopped, so the log is continued, too. Throws
+  // Failure(input).
+  void open(const std::string& path, const std::string& command, bool continued);
 };
 
-// The only program whose work several ranks share; of any other those beside the first end at once.
+// The only program whose work several ranks share. Of other programs all ranks but the first end at
+// once.
 inline constexpr const char* shared_by_ranks = "langer-solve";
 
-// Runs the body, turns what it throws into a message and an exit code, and leaves the program.
+// Runs the body, turns an exception into a message and an exit code, and ends the program.
 [[noreturn]] int guarded(const std::string& program, const std::function<int()>& body);
 
 }  // namespace langer

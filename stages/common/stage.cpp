@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "arguments.hpp"
 #include "core/base/memory.hpp"
 #include "core/base/ranks.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/linear/petsc/petsc_load.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/ports.hpp"
@@ -17,29 +19,29 @@ namespace langer {
 
 namespace {
 
-// What one rank does for all.
+// Runs a function on rank 0 only. If it throws, all ranks end.
 template <class Work>
-void first(Work work) {
-  on_root_rank(ranks(), [&] {
+void on_root_rank(Work work) {
+  by_first(ranks(), [&] {
     work();
     return true;
   });
 }
 
-// -v: what this run is made from
-void say_inputs(const Identity& identity, const std::string& program) {
+// -v: version, config and content ids of the inputs.
+void print_inputs(const Identity& identity, const std::string& program) {
   say_line("{}: {}, config {}", identity.stage, version_line(program), identity.config_hash);
   for (const auto& [port, id] : identity.inputs) say_line("{}: {} {}", identity.stage, port, id);
 }
 
-// inputs are files of ours of a kind that the port takes
-void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
+// Refuses an input that another stage made than those that the port takes.
+void check_makers(const StageSpec& spec, const InputFiles& inputs) {
   for (const auto& [port, files] : inputs)
     for (const std::string& file : files) {
       if (std::filesystem::path(file).extension() != ".h5") continue;
       const std::string stage = read_origin(file).identity.stage;
       const std::vector<std::string>& makers = spec.port(port)->made_by;
-      if (std::find(makers.begin(), makers.end(), stage) == makers.end())
+      if (std::ranges::find(makers, stage) == makers.end())
         throw Failure(Exit::input, Error{{file},
                                          "",
                                          "made by langer-" + stage,
@@ -48,21 +50,26 @@ void need_kinds(const StageSpec& spec, const InputFiles& inputs) {
     }
 }
 
-// --dry-run of the stages without a forecast
-void say_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts,
-                 const std::string& output, const InputFiles& inputs) {
+// A part of the config in words: on, off, or its number of items.
+std::string part_words(const ConfigPart& part) {
+  if (!part.active) return "off, not in the config";
+  if (part.count > 0) return std::to_string(part.count);
+  return "on";
+}
+
+// --dry-run of the stages that do not estimate their time and memory.
+void print_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts,
+                   const std::string& output, const InputFiles& inputs) {
   say_line("{}: dry run, nothing is computed or written", spec.name);
   const auto line = [](const std::string& part, const std::string& says) {
     say_line("  {:<14}{}", part, says);
   };
   for (const auto& [port, files] : inputs) line(port, fmt::format("{}", fmt::join(files, ", ")));
-  for (const ConfigPart& p : parts)
-    line(p.key,
-         p.active ? (p.count > 0 ? std::to_string(p.count) : "on") : "off, not in the config");
-  line("makes", output.empty() ? std::string(spec.output) : output);
+  for (const ConfigPart& p : parts) line(p.key, part_words(p));
+  line("makes", text_or(output, spec.output));
 }
 
-// What a stage's command line gives beside its job.
+// Options of a stage's command line that are not part of its task.
 struct CommandLine {
   std::string config_file, log;
   std::vector<std::string> settings;
@@ -73,8 +80,10 @@ void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandL
   for (const Port& port : spec.inputs) {
     std::vector<std::string>& files = task.inputs[port.name];
     const std::string name = "--" + std::string(port.name);
-    port.several ? options.texts(name, files, port.required)
-                 : options.text(name, files, port.required);
+    if (port.several)
+      options.texts(name, files, port.required);
+    else
+      options.text(name, files, port.required);
   }
   options.text("-o,--output", task.output);
   options.flag("--dry-run", task.dry_run);
@@ -87,7 +96,8 @@ void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandL
   options.version();
 }
 
-// Config and inputs of a task whose options are read; nothing of it is written yet.
+// Reads the config and checks the inputs of a task. From here on the output may be replaced: first
+// it is checked that this destroys neither an input nor a file that Langer did not make.
 ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given,
                      const std::string& command, const StageWork& own) {
   std::erase_if(task.inputs, [](const auto& port) { return port.second.empty(); });
@@ -101,40 +111,46 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
   require_one_source(spec, tree, ports);
   ReadConfig config = own.read(std::move(tree));
   task.where = config.where;
-  if (!task.dry_run) first([&] { check_output(task.output, given.config_file, task.inputs); });
+  if (!task.dry_run)
+    on_root_rank([&] { check_output(task.output, given.config_file, task.inputs); });
   task.identity =
       identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);
-  first([&] {
-    if (!task.dry_run) require_replaceable(task.output);  // by now it is known what the config names
+  on_root_rank([&] {
+    // Repeated here, because the files that the config names are known by now.
+    if (!task.dry_run) need_replaceable(task.output);
     begin_beside(task.output);
   });
   return config;
 }
 
-void need_own_files(const CommandLine& given, const Task& task) {
+// Protects the config and the inputs from being replaced by any file of this run.
+void protect_inputs(const CommandLine& given, const Task& task) {
   never_replace(given.config_file);
   for (const auto& [port, files] : task.inputs)
-    std::for_each(files.begin(), files.end(), never_replace);
+    for (const std::string& file : files) never_replace(file);
   if (!given.log.empty() && std::filesystem::weakly_canonical(given.log) ==
                                 std::filesystem::weakly_canonical(task.output))
     throw Failure(Exit::input,
-                  Error{{given.log}, "", "is the output too", "another name for --log", ""});
+                  Error{{given.log}, "", "is also the output", "another name for --log", ""});
 }
 
-// Says once what becomes of those that were started together. False on ranks that have nothing to
-// do.
-bool take_ranks(const std::string& program, bool quiet) {
+// Starts the ranks of mpirun. Only langer-solve uses several; of other programs all ranks but one
+// end at once. False on a rank that ends.
+bool start_ranks(const std::string& program, bool quiet) {
   const Launched started = launched();
   if (started.n == 1) return true;
-  std::string why = program + " is the work of one process";
-  if (program == shared_by_ranks && begin_ranks(why)) return true;
+  std::string reason = program + " is the work of one process";
+  if (program == shared_by_ranks && begin_ranks(reason)) return true;
   if (started.rank > 0) return false;
   if (!quiet)
-    say_line("{}: {} of {} ranks have nothing to do: {}", program, started.n - 1, started.n, why);
+    say_line("{}: {} of {} ranks have nothing to do: {}", program, started.n - 1, started.n,
+             reason);
   return true;
 }
 
+// Chooses the folder of tables, cards and figures. Another run of this folder may own their plain
+// names; then they go to a folder of their own.
 void choose_side_folder(Task& task, const StageSpec& spec, const std::vector<std::string>& names) {
   const SideFolder folder = side_folder(task.output, spec.name, names);
   task.side_folder = folder.path;
@@ -144,23 +160,25 @@ void choose_side_folder(Task& task, const StageSpec& spec, const std::vector<std
   }
 }
 
-int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& kept,
+// A run from its options to its output: checks, lock, work, summary.
+int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& log,
         const std::string& command, const StageWork& own) {
-  need_own_files(given, task);
+  protect_inputs(given, task);
   if (!given.log.empty())
-    first([&] { kept.open(given.log, command, std::filesystem::exists(task.output + ".part")); });
+    on_root_rank(
+        [&] { log.open(given.log, command, std::filesystem::exists(task.output + ".part")); });
   const ReadConfig config = read_task(task, spec, given, command, own);
-  if (task.verbose) say_inputs(task.identity, "langer-" + std::string(spec.name));
+  if (task.verbose) print_inputs(task.identity, "langer-" + std::string(spec.name));
   if (task.dry_run && !spec.forecasts) {
-    need_kinds(spec, task.inputs);
-    if (!task.quiet) say_dry_run(spec, config.parts, task.output, task.inputs);
+    check_makers(spec, task.inputs);
+    if (!task.quiet) print_dry_run(spec, config.parts, task.output, task.inputs);
     if (task.json) put_out(json_text(task.identity, {}));
     return static_cast<int>(Exit::ok);
   }
   std::optional<OutputLock> lock;
   task.side_folder = std::filesystem::path(task.output).parent_path().string();
   if (!task.dry_run) {
-    first([&] {
+    on_root_rank([&] {
       lock.emplace(task.output, task.identity.command);
       choose_side_folder(task, spec, own.side_files());
     });
@@ -182,11 +200,10 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
   Arguments options(program);
   CommandLine given;
   add_options(options, spec, task, given);
-  RunLog kept;
-  return guarded(program, [&] {
-    // --describe needs none of the required arguments
-    if (std::any_of(argv + 1, argv + argc,
-                    [](const char* a) { return std::string(a) == "--describe"; })) {
+  RunLog log;
+  const auto body = [&] {
+    // --describe is answered without the required arguments.
+    if (std::find(argv + 1, argv + argc, std::string_view("--describe")) != argv + argc) {
       put_out(kind.reference());
       return static_cast<int>(Exit::ok);
     }
@@ -196,9 +213,10 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
       say_error(fmt::format("{}: --output is required\n  hint: {} --help", program, program));
       return static_cast<int>(Exit::config);
     }
-    if (!take_ranks(program, task.quiet)) return static_cast<int>(Exit::ok);
-    return run(task, spec, given, kept, command_line(argc, argv), own);
-  });
+    if (!start_ranks(program, task.quiet)) return static_cast<int>(Exit::ok);
+    return run(task, spec, given, log, command_line(argc, argv), own);
+  };
+  return guarded(program, body);
 }
 
 }  // namespace langer

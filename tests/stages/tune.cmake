@@ -24,7 +24,7 @@ nodes:
 ")
 run(0 ${BIN}/langer-plan pipeline.yaml -o run)
 run(0 make -C run)
-expect_said("1e-09 %: not told, the reference itself is not known to that")
+expect_said("1e-09 %: not known, the reference itself is not that accurate")
 expect_said("  20 %: 0.")
 file(STRINGS ${WORK}/run/front/cheapest.csv rows)
 list(GET rows 2 last)
