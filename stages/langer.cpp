@@ -1,6 +1,7 @@
 // langer show | new | check | describe | schema | explain | times | crate | doctor | man |
-// completion: what one wants to know beside the stages.
+// completion: commands that read files and configs but compute nothing.
 #include <algorithm>
+#include <optional>
 
 #include "arguments.hpp"
 #include "cli/check.hpp"
@@ -11,6 +12,7 @@
 #include "cli/show.hpp"
 #include "cli/starter.hpp"
 #include "core/base/say.hpp"
+#include "core/base/text.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/run_files.hpp"
 #include "program.hpp"
@@ -19,17 +21,33 @@
 namespace langer {
 namespace {
 
+// The arguments of a command.
 struct Given {
-  std::vector<std::string> places;  // what stands without an option
+  std::vector<std::string> places;  // positional arguments
   std::string as, same_as;
   CrateWords crate;
-  bool config = false, json = false, list = false, failed = false;
+  bool config = false;
+  bool json = false;
+  bool list = false;
+  bool failed = false;
 };
+
+// Prints data and returns the exit code of success.
+int print(const std::string& text) {
+  put_out(text);
+  return static_cast<int>(Exit::ok);
+}
+
+std::string file_text(const Given& given, const std::string& file) {
+  if (given.config) return show_config(file);
+  if (given.json) return show_summary(file);
+  return show(file);
+}
 
 int show_files(const Given& given) {
   for (const std::string& file : given.places) {
     require_file(file);
-    put_out(given.config ? show_config(file) : given.json ? show_summary(file) : show(file));
+    put_out(file_text(given, file));
   }
   return 0;
 }
@@ -43,30 +61,34 @@ int new_project(const Given& given) {
   return 0;
 }
 
+// Checks all files, also after an error. The exit code is the largest of all.
 int check_files(const Given& given) {
   int worst = 0;
-  for (const std::string& file : given.places) try {
+  for (const std::string& file : given.places) {
+    try {
       put_out(check_file(file, given.as) + "\n");
     } catch (const Failure& failure) {
       say_error(failure.what());
       worst = std::max(worst, static_cast<int>(failure.code()));
     }
+  }
   return worst;
 }
 
 int describe_kind(const Given& given) {
-  if (given.places[0] == "columns") return put_out(columns_text()), 0;
-  const ConfigKind* kind = find_config_kind(given.places[0]);
-  if (!kind)
-    schema_text(given.places[0] == "pipeline" ? "" : given.places[0]);  // says which there are
-  put_out(kind->reference());
-  return 0;
+  std::string name = given.places[0];
+  if (name == "columns") return print(columns_text());
+  if (const ConfigKind* kind = find_config_kind(name)) return print(kind->reference());
+  // A pipeline has a schema but no reference. For an unknown kind schema_text() throws an error
+  // that lists the known ones.
+  if (name == "pipeline") name = "";
+  return print(schema_text(name));
 }
 
 int manual(const Given& given) {
   std::vector<std::string> known;
   for (const Usage& u : all_usages()) {
-    if (u.program == given.places[0]) return put_out(man_text(u)), 0;
+    if (u.program == given.places[0]) return print(man_text(u));
     known.push_back(u.program);
   }
   throw Failure(Exit::config, Error{{},
@@ -78,11 +100,12 @@ int manual(const Given& given) {
 
 int crate(const Given& given) {
   const std::string& folder = given.places[0];
-  if (!given.same_as.empty()) return put_out(same_results(folder, given.same_as) + "\n"), 0;
+  if (!given.same_as.empty()) return print(same_results(folder, given.same_as) + "\n");
   const CrateReport report = write_crate(folder, given.crate);
   for (const std::string& file : report.copied) say_line("langer: copied {}/{}", folder, file);
   say_line(
-      "langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: sh {}/reproduce",
+      "langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: "
+      "sh {}/reproduce",
       folder, report.files, report.actions, report.copied.size(), folder);
   return 0;
 }
@@ -90,17 +113,37 @@ int crate(const Given& given) {
 int doctor() {
   const std::vector<Finding> findings = examine();
   put_out(doctor_text(findings));
-  const bool runs = std::none_of(findings.begin(), findings.end(),
-                                 [](const Finding& f) { return f.needed && !f.there; });
-  return static_cast<int>(runs ? Exit::ok : Exit::input);
+  if (std::ranges::any_of(findings, is_serious)) return static_cast<int>(Exit::input);
+  return static_cast<int>(Exit::ok);
 }
 
-int command(const Usage& usage, const std::string& name, int argc, char** argv) {
+bool is_required_place(const UsageOption& o) { return is_place(o) && o.required; }
+
+// Checks the number of positional arguments; `most`: of a command that does not take any number.
+void check_places(const Usage& usage, const Given& given, std::size_t required,
+                  std::optional<std::size_t> most) {
+  if (given.places.size() < required) {
+    std::string missing;
+    for (const UsageOption& o : usage.options)
+      if (is_required_place(o)) missing = o.flags;
+    throw Failure(
+        Exit::config,
+        Error{{usage.program}, "", missing + " is required", "", usage.program + " --help"});
+  }
+  if (!most || given.places.size() <= *most) return;
+  throw Failure(Exit::config, Error{{usage.program},
+                                    "",
+                                    fmt::format("found {} words", given.places.size()),
+                                    fmt::format("{} at most", *most),
+                                    usage.program + " --help"});
+}
+
+// Reads the arguments of one command and runs it.
+int run_command(const Usage& usage, const std::string& name, int argc, char** argv) {
   Given given;
-  const bool places = std::any_of(usage.options.begin(), usage.options.end(), is_place);
-  const std::size_t required = static_cast<std::size_t>(
-      std::count_if(usage.options.begin(), usage.options.end(),
-                    [](const UsageOption& o) { return is_place(o) && o.required; }));
+  const bool places = std::ranges::any_of(usage.options, is_place);
+  const auto required =
+      static_cast<std::size_t>(std::ranges::count_if(usage.options, is_required_place));
   Arguments options(usage.program);
   if (places) options.texts("places", given.places);
   for (const auto& [name, text] : {std::pair{"--as", &given.as},
@@ -117,52 +160,39 @@ int command(const Usage& usage, const std::string& name, int argc, char** argv) 
     if (usage.find(name)) options.flag(name, *flag);
   int code = 0;
   if (!options.read(usage, argc, argv, code)) return code;
-  if (given.list) return put_out(fmt::format("{}\n", fmt::join(schema_kinds(), "\n"))), 0;
-  if (given.places.size() < required) {
-    std::string missing;
-    for (const UsageOption& o : usage.options)
-      if (is_place(o) && o.required) missing = o.flags;
-    throw Failure(
-        Exit::config,
-        Error{{usage.program}, "", missing + " is required", "", usage.program + " --help"});
-  }
-  const bool several = name == "show" || name == "check";
-  if (const std::size_t most = name == "new" ? 2 : required; !several && given.places.size() > most)
-    throw Failure(Exit::config, Error{{usage.program},
-                                      "",
-                                      fmt::format("found {} words", given.places.size()),
-                                      fmt::format("{} at most", most),
-                                      usage.program + " --help"});
+  if (given.list) return print(fmt::format("{}\n", fmt::join(schema_kinds(), "\n")));
+  std::optional<std::size_t> most = required;
+  if (name == "new") most = 2;
+  if (name == "show" || name == "check") most.reset();
+  check_places(usage, given, required, most);
   if (name == "show") return show_files(given);
   if (name == "new") return new_project(given);
   if (name == "check") return check_files(given);
   if (name == "describe") return describe_kind(given);
-  if (name == "schema") return put_out(schema_text(given.places[0])), 0;
-  if (name == "explain") return put_out(explain_text(explain(given.places[0]))), 0;
-  if (name == "times") return put_out(times_text(times_of(given.places[0]), given.failed)), 0;
+  if (name == "schema") return print(schema_text(given.places[0]));
+  if (name == "explain") return print(explain_text(explain(given.places[0])));
+  if (name == "times") return print(times_text(times_of(given.places[0]), given.failed));
   if (name == "crate") return crate(given);
   if (name == "doctor") return doctor();
   if (name == "man") return manual(given);
-  return put_out(completion_text()), 0;
+  return print(completion_text());
 }
 
 int langer_program(int argc, char** argv) {
-  const std::string word = argc > 1 ? argv[1] : "--help";
-  if (word == "--help" || word == "-h" || word == "help")
-    return put_out(help_text(langer_usage())), 0;
-  if (word == "--version") return put_out(version_line("langer") + "\n"), 0;
+  std::string word = "--help";
+  if (argc > 1) word = argv[1];
+  if (word == "--help" || word == "-h" || word == "help") return print(help_text(langer_usage()));
+  if (word == "--version") return print(version_line("langer") + "\n");
   std::vector<std::string> names;
   for (const Usage& usage : langer_commands()) {
     names.push_back(usage.program.substr(7));
-    if (word == names.back()) return command(usage, word, argc - 1, argv + 1);
+    if (word == names.back()) return run_command(usage, word, argc - 1, argv + 1);
   }
-  const std::string near = nearest(word, names);
-  throw Failure(Exit::config,
-                Error{{"langer"},
-                      "",
-                      fmt::format("there is no command \"{}\"", word),
-                      "one of " + list_words(names),
-                      near.empty() ? "langer --help" : fmt::format("did you mean \"{}\"?", near)});
+  throw Failure(Exit::config, Error{{"langer"},
+                                    "",
+                                    fmt::format("there is no command \"{}\"", word),
+                                    "one of " + list_words(names),
+                                    text_or(did_you_mean(nearest(word, names)), "langer --help")});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@
 namespace langer {
 namespace {
 
-// Row 0 of every table is the unloaded state, row i the i-th step.
+// A solution file with its body. Row 0 of every table is the unloaded state, row i the i-th step.
 struct Solution {
   explicit Solution(const std::string& path)
       : reader(path),
@@ -31,25 +31,35 @@ struct Solution {
              formulation_of(reader.header(), path)),
         branches_(body, reader) {}
   SolutionReader reader;
-  mutable Body body;  // told of the branch stresses of the row that was read last
+  mutable Body body;  // with the branch stresses of the row that was read last
+
   StepRecord record(int row) const {
     branches_.go_to(row);
     if (row > 0) return reader.step(row - 1);
-    StepRecord rest;
-    rest.u.assign(body.mesh().X.size(), Vec3::Zero());
-    rest.reaction = rest.u;
-    double stiffness = std::numeric_limits<double>::infinity();
-    std::set<int> seen;  // bodies: at rest the direction of the fibres does not matter
-    for (int e = 0; e < body.mesh().n_cells(); ++e)
-      if (seen.insert(body.mesh().body.empty() ? 0 : body.mesh().body[e]).second)
-        stiffness = std::min(
-            stiffness,
-            smallest_shear_stiffness(body.material(e), Mat3::Identity(), body.fibres(e)).value);
-    rest.scalars["shear_stiffness_min"] = stiffness;
-    return rest;
+    StepRecord undeformed;
+    undeformed.u.assign(body.mesh().X.size(), Vec3::Zero());
+    undeformed.reaction = undeformed.u;
+    undeformed.scalars["shear_stiffness_min"] = stiffness_at_rest();
+    return undeformed;
   }
 
  private:
+  // The minimum acoustic eigenvalue of the undeformed state. The direction of the fibres does not
+  // matter in that state, so one element of each body is enough.
+  double stiffness_at_rest() const {
+    double stiffness = std::numeric_limits<double>::infinity();
+    std::set<int> bodies;
+    for (int e = 0; e < body.mesh().n_cells(); ++e) {
+      int number = 0;
+      if (!body.mesh().body.empty()) number = body.mesh().body[e];
+      if (!bodies.insert(number).second) continue;
+      stiffness = std::min(
+          stiffness,
+          smallest_shear_stiffness(body.material(e), Mat3::Identity(), body.fibres(e)).value);
+    }
+    return stiffness;
+  }
+
   mutable BranchRows branches_;
 };
 
@@ -62,11 +72,12 @@ using Columns = std::vector<Column>;
   throw Failure(Exit::config, std::move(errors));
 }
 
-// One row per state, the first is the unloaded one.
+// The table of states: one row per state, the first is the unloaded one.
 struct Table {
   std::vector<double> t, u_ind, seconds;
   Columns columns;
 
+  // The row closest to a wanted state, such as "t=0.5"; refuses a state beyond the path.
   int row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
     const int row = row_of(*parse_step(step), t, u_ind);
     if (row >= 0) return row;
@@ -76,6 +87,8 @@ struct Table {
                               t.size() - 1, t.back(), furthest),
                   ""}});
   }
+
+  // As row(), but refuses a state between two rows.
   int exact_row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
     const int found = row(job, key, step);
     if (!is_exact(*parse_step(step), found, t, u_ind))
@@ -83,18 +96,26 @@ struct Table {
           job,
           {{key, step, "a state of the solution",
             fmt::format(
-                "the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of the motion makes the path stop "
-                "where it is wanted",
+                "the closest are t={}, u_ind={} and t={}, u_ind={}; with a waypoint in the motion "
+                "the path has a step exactly there",
                 t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
     return found;
   }
 };
 
-bool asked(const std::vector<Measure>& measures, auto&& of) {
-  return std::any_of(measures.begin(), measures.end(),
-                     [&](const Measure& m) { return m.quantity && of(line_of(*m.quantity)); });
+// Whether any measure has a quantity with a property.
+bool any_quantity(const std::vector<Measure>& measures, bool (*property)(const QuantityLine&)) {
+  for (const Measure& m : measures)
+    if (m.quantity && property(line_of(*m.quantity))) return true;
+  return false;
 }
 
+bool is_contact_area(const QuantityLine& line) { return is_of_contact_surface(line.word); }
+bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
+bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
+
+// Evaluates all measures in all states. Sums along the path (energies) are computed first; contact
+// areas, contact values and slip only if a measure needs them.
 Table table_of(const Job<PostConfig>& job, const Solution& solution,
                const std::vector<RigidContact>& indenters, const ContactStates& contacts,
                const std::vector<Measure>& measures) {
@@ -104,11 +125,9 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
   for (int row = 0; row <= n_steps; ++row)
     path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
-  const bool areas =
-      asked(measures, [](const QuantityLine& line) { return is_of_contact_surface(line.word); });
-  const bool touched = asked(measures, is<OfContact>);
-  const bool slips = asked(
-      measures, [](const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; });
+  const bool areas = any_quantity(measures, is_contact_area);
+  const bool touched = any_quantity(measures, is_contact_value);
+  const bool slips = any_quantity(measures, needs_slip);
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
@@ -138,39 +157,42 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
   return table;
 }
 
+const Column& column_named(const Table& table, const std::string& name) {
+  return *std::ranges::find(table.columns, name, &Column::name);
+}
+
+std::string quotient_unit(const std::string& numerator, const std::string& denominator) {
+  if (numerator == denominator) return "-";
+  if (denominator == "-") return numerator;
+  return numerator + "/" + denominator;
+}
+
+// Storage, loss and loss tangent of the last cycle of one column over another (viscoelasticity).
 void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summary>& summary) {
-  const auto column = [&](const std::string& name) -> const Column& {
-    return *std::find_if(table.columns.begin(), table.columns.end(),
-                         [&](const Column& c) { return c.name == name; });
-  };
   for (const auto& [name, choice] : job.config.cycles) {
     double lasts = 0;
     if (table.seconds.size() == table.t.size()) lasts = table.seconds.back();
     if (!(lasts >= choice.period * (1 - 1e-9)))
       refuse(job, {{"cycles." + name + ".period",
                     fmt::format("{:g} s, and the solution lasts {:g} s", choice.period, lasts),
-                    "a cycle that the path has gone through, in seconds",
-                    "path.seconds of the solve says how long it takes"}});
-    const Column &of = column(choice.of), &over = column(choice.over);
+                    "a cycle that is complete in the solution, in seconds",
+                    "path.seconds of the solve is the duration of the path"}});
+    const Column& of = column_named(table, choice.of);
+    const Column& over = column_named(table, choice.over);
     const Cycle cycle = last_cycle(table.seconds, over.values, of.values, choice.period);
-    std::string unit;
-    if (of.unit == over.unit) {
-      unit = "-";
-    } else if (over.unit == "-") {
-      unit = of.unit;
-    } else {
-      unit = of.unit + "/" + over.unit;
-    }
+    const std::string unit = quotient_unit(of.unit, over.unit);
     summary.push_back({"storage_" + name, cycle.storage, unit});
     summary.push_back({"loss_" + name, cycle.loss, unit});
     summary.push_back({"tan_delta_" + name, cycle.tan_delta(), "-"});
     if (cycle.change > 0.01)
       job.say(
-          "warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not yet those of many cycles",
+          "warning: cycle \"{}\" differs from the one before by {:.2g} %: storage and loss are not "
+          "yet those of many cycles",
           name, 100 * cycle.change);
   }
 }
 
+// The last row of the table, the rows of `summary_at`, cycles, and the range of each map.
 std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table,
                                 const std::vector<SurfaceMap>& maps) {
   std::vector<Summary> summary;
@@ -189,8 +211,8 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table,
   return summary;
 }
 
-using Renders =
-    std::map<std::string, std::pair<std::string, RenderChoice>>;  // name -> its key, how
+// Name of a rendered picture -> its key in the config, and its settings.
+using Renders = std::map<std::string, std::pair<std::string, RenderChoice>>;
 
 Renders renders_of(const PostConfig& config) {
   Renders renders;
@@ -199,6 +221,7 @@ Renders renders_of(const PostConfig& config) {
   return renders;
 }
 
+// Errors of the config that depend on the solution: fields that it lacks, fibre families, points.
 std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& renders,
                                      const Body& body, const Available& available) {
   std::vector<Complaint> complaints;
@@ -225,16 +248,17 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
     if (choice.field && line_of(*choice.field).needs.fibres && choice.family > body.n_families())
       complaints.push_back(
           {key + ".family", "a fibre family that the material lacks", "another field", ""});
-    for (std::size_t i = 0; i < choice.points.size(); ++i)
-      if (const auto set = sets.find(choice.points[i]);
-          set == sets.end() || set->second.size() != 1)
-        complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i],
-                              "an observation point of the mesh", ""});
+    for (std::size_t i = 0; i < choice.points.size(); ++i) {
+      const auto set = sets.find(choice.points[i]);
+      if (set != sets.end() && set->second.size() == 1) continue;
+      complaints.push_back({fmt::format("{}.points[{}]", key, i), choice.points[i],
+                            "an observation point of the mesh", ""});
+    }
   }
   return complaints;
 }
 
-// a row with what the indenters do to the nodes, where the picture shows that
+// The state of a row, with the contact values of the nodes if the picture shows one.
 StepState pictured_state(const Solution& solution, const ContactStates& contacts, int row,
                          const std::optional<Quantity>& field) {
   const StepRecord record = solution.record(row);
@@ -244,6 +268,8 @@ StepState pictured_state(const Solution& solution, const ContactStates& contacts
   return state;
 }
 
+// The content of curves.h5: the shown columns, a curve of each column over the first one, maps of
+// the surface, and the summary.
 Curves curves_of(const Job<PostConfig>& job, const Solution& solution,
                  const ContactStates& contacts, const Table& table, std::size_t n_shown) {
   Curves curves;
@@ -265,6 +291,7 @@ Curves curves_of(const Job<PostConfig>& job, const Solution& solution,
   return curves;
 }
 
+// A picture of the deformed body with its indenters.
 Drawing drawing_of(const Solution& solution, const std::vector<RigidContact>& indenters,
                    const StepState& state, const RenderChoice& choice, StressAt stress,
                    const Look& look) {
@@ -294,6 +321,8 @@ void write_snapshot_of(const Job<PostConfig>& job, const Solution& solution,
                  fields.cells, job.identity, t);
 }
 
+// Writes all states as series/step_*.vtu, and series.pvd for ParaView. All states must have the
+// same fields; the gap of the undeformed state is not recorded, so it is NaN there.
 void write_series(const Job<PostConfig>& job, const Solution& solution,
                   const ContactStates& contacts) {
   const SolutionHeader& header = solution.reader.header();
@@ -301,23 +330,28 @@ void write_series(const Job<PostConfig>& job, const Solution& solution,
   std::vector<std::pair<double, std::string>> files;
   for (int row = 0; row <= solution.reader.n_steps(); ++row) {
     StepRecord record = solution.record(row);
-    if (row == 0)  // every state has the same fields; the gap at rest is not recorded
+    if (row == 0) {
       for (const auto& [name, nodes] : header.contact_nodes)
         record.contacts[name] = {
             std::vector<Vec3>(nodes.size(), Vec3::Zero()), std::vector<int>(nodes.size(), 0),
             std::vector<double>(nodes.size(), std::numeric_limits<double>::quiet_NaN())};
+    }
     const SnapshotFields fields =
         snapshot_fields(solution.body, header, record, row, contacts, job.config.stress);
     files.push_back({record.t, fmt::format("series/step_{:04}.vtu", row)});
-    write_vtu(job.side_file(files.back().second), header.mesh, record.t, fields.points, fields.cells);
+    write_vtu(job.side_file(files.back().second), header.mesh, record.t, fields.points,
+              fields.cells);
   }
   write_pvd(job.side_file("series.pvd"), files);
 }
 
+// Adds measured points to a figure, and writes them next to it.
 void add_points(const Job<PostConfig>& job, const std::string& name, const FigurePoints& points,
                 Plot& plot) {
-  const PointColumns read = read_points(
-      points, [&](const std::string& key) { return job.where("figures." + name + "." + key); });
+  const auto where = [&](const std::string& key) {
+    return job.where("figures." + name + "." + key);
+  };
+  const PointColumns read = read_points(points, where);
   const std::string file = name + "_points.csv";
   write_text_file(job.side_file(file), csv({{points.x, "-", read.x}, {points.y, "-", read.y}}));
   PlotLine line{file, points.x, points.y, points.legend};
@@ -344,12 +378,25 @@ void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps,
   }
 }
 
-// of the solution; those that are columns stand there already
-void add_errors_of(const SolutionReader& reader, std::vector<Summary>& summary) {
+// Adds the summary of the solution, such as error estimates, except for names that are columns.
+void add_solution_summary(const SolutionReader& reader, std::vector<Summary>& summary) {
   for (const Summary& s : reader.summary())
-    if (std::none_of(summary.begin(), summary.end(),
-                     [&](const Summary& other) { return other.name == s.name; }))
-      summary.push_back(s);
+    if (std::ranges::find(summary, s.name, &Summary::name) == summary.end()) summary.push_back(s);
+}
+
+// Draws the deformed body. Indenters whose surface is not in the solution cannot be drawn.
+void draw_renders(const Job<PostConfig>& job, const Solution& solution, const Renders& renders,
+                  const std::vector<RigidContact>& indenters, const ContactStates& contacts,
+                  const std::map<std::string, int>& rows, Pictures& pictures) {
+  for (const auto& [name, keyed] : renders) {
+    const RenderChoice& choice = keyed.second;
+    const StepState state = pictured_state(solution, contacts, rows.at(name), choice.field);
+    pictures.draw(
+        name, drawing_of(solution, indenters, state, choice, job.config.stress, pictures.look()));
+  }
+  if (renders.empty()) return;
+  for (const std::string& name : indenters_missing(solution.reader.header(), indenters))
+    job.say("not drawn: the indenter \"{}\", whose triangles are not in the solution", name);
 }
 
 std::vector<Summary> post(const Job<PostConfig>& job) {
@@ -386,7 +433,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     pictured[name] = table.row(job, keyed.first + ".step", keyed.second.step);
   Curves curves = curves_of(job, solution, contacts, table, shown.measures.size());
 
-  // the main output comes last: once it is there, everything is
+  // The main output is written last: if it exists, all other files exist.
   const std::filesystem::path csv_file =
       std::filesystem::path(job.output).replace_extension(".csv");
   write_text_file(csv_file.string(), csv(curves.columns));
@@ -394,29 +441,25 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     write_snapshot_of(job, solution, contacts, row, table.t[static_cast<std::size_t>(row)]);
   if (config.series) write_series(job, solution, contacts);
   Pictures pictures(job.side_file(""), config.figure_style, config.draw == Draw::always);
-  // Scripts name the table as their own folder sees it.
+  // The scripts of figures are in the side folder, so they name the table relative to it.
   std::string table_file = csv_file.filename().string();
   if (job.side_folder != csv_file.parent_path()) table_file = "../" + table_file;
   draw_curves(job, config.columns, table_file, static_cast<int>(table.t.size()), pictures);
   draw_maps(job, curves.maps, pictures);
-  for (const auto& [name, keyed] : renders)
-    pictures.draw(
-        name, drawing_of(solution, indenters,
-                         pictured_state(solution, contacts, pictured.at(name), keyed.second.field),
-                         keyed.second, config.stress, pictures.look()));
-  for (const std::string& name : renders.empty() ? std::vector<std::string>{} : missing)
-    job.say("not drawn: the indenter \"{}\", whose triangles the solution does not hold", name);
+  draw_renders(job, solution, renders, indenters, contacts, pictured, pictures);
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
-  add_errors_of(solution.reader, curves.summary);
+  add_solution_summary(solution.reader, curves.summary);
   write_curves(job.output, curves, identity);
+  std::string on_request;
+  if (config.draw != Draw::always) on_request = " on request: gnuplot <name>.gp draws one";
   job.say("{}, {} in {}; {}, {}{}", counted(table.t.size(), "row"),
           counted(curves.columns.size(), "column"), csv_file.filename().string(),
           counted(snapshots.size(), "snapshot"),
           counted(config.figures.size() + config.maps.size() + renders.size(), "figure"),
-          config.draw == Draw::always ? "" : " on request: gnuplot <name>.gp draws one");
+          on_request);
   return curves.summary;
 }
 
@@ -429,7 +472,7 @@ std::vector<std::string> side_files(const PostConfig& config) {
   return names;
 }
 
-// --export: the solved scene as decks of other programs, and nothing else
+// --export: writes the solved scene as input files of other programs, and nothing else.
 int export_scene(int argc, char** argv) {
   const Usage usage = usage_of(*find_stage("post"), find_config_kind("post")->top_keys(), "");
   Arguments options(usage.program);
@@ -441,12 +484,12 @@ int export_scene(int argc, char** argv) {
   options.flag("--quiet", quiet);
   options.text("--log", log);
   options.version();
-  RunLog kept;
+  RunLog kept_log;
   return guarded(usage.program, [&] {
     int code = 0;
     if (!options.read(usage, argc, argv, code)) return code;
     never_replace(solution);
-    if (!log.empty()) kept.open(log, command_line(argc, argv), false);
+    if (!log.empty()) kept_log.open(log, command_line(argc, argv), false);
     require_file(solution);
     for (const WrittenDeck& deck : write_decks(solution, files)) {
       if (!quiet) say_line("post: {} for {}", deck.file, deck.program);
@@ -460,10 +503,8 @@ int export_scene(int argc, char** argv) {
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  const auto exports = [](const char* a) {
-    return std::string_view(a).starts_with("--export");
-  };
-  if (std::any_of(argv + 1, argv + argc, exports)) return langer::export_scene(argc, argv);
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]).starts_with("--export")) return langer::export_scene(argc, argv);
   return langer::run_stage<langer::PostConfig>(argc, argv, "post", langer::post,
                                                langer::side_files);
 }

@@ -18,7 +18,8 @@ namespace langer {
 
 namespace {
 
-// "# yaml-language-server: $schema=../schema/solve.schema.json" in the first lines
+// The kind named by "# yaml-language-server: $schema=../schema/solve.schema.json" in the first
+// lines.
 std::optional<std::string> kind_by_schema_line(const std::string& path) {
   std::ifstream file(path);
   std::string line;
@@ -32,7 +33,8 @@ std::optional<std::string> kind_by_schema_line(const std::string& path) {
   return std::nullopt;
 }
 
-// the kind whose keys fit best: fewest unknown, then fewest missing, then most known
+// The kind whose keys fit best: with the fewest unknown keys, then the fewest missing ones, then
+// the largest share of known ones. Empty if two kinds fit equally well.
 std::optional<std::string> kind_by_keys(const Tree& tree) {
   if (tree.kind != Tree::Kind::map) return std::nullopt;
   if (tree.find("nodes")) return "pipeline";
@@ -53,10 +55,12 @@ std::optional<std::string> kind_by_keys(const Tree& tree) {
       best = kind;
       least = score;
       tie = false;
-    } else if (score == least)
+    } else if (score == least) {
       tie = true;
+    }
   }
-  return tie ? std::nullopt : best;
+  if (tie) return std::nullopt;
+  return best;
 }
 
 std::string warnings(const std::vector<std::string>& doubts) {
@@ -73,9 +77,9 @@ std::string kind_of(const std::string& path) {
   if (const auto kind = kind_by_keys(tree)) return *kind;
   throw Failure(Exit::config, Error{{path, 0, 0},
                                     "",
-                                    "its keys do not tell what kind of file this is",
+                                    "the kind of this file does not follow from its keys",
                                     "",
-                                    "say so: --as with one of " + list_words(schema_kinds())});
+                                    "use --as with one of " + list_words(schema_kinds())});
 }
 
 std::string check_file(const std::string& path, std::string kind) {
@@ -83,7 +87,7 @@ std::string check_file(const std::string& path, std::string kind) {
     require_file(path);
     kind = kind_of(path);
   }
-  if (!has_schema(kind)) schema_text(kind);  // says which there are
+  if (!has_schema(kind)) schema_text(kind);  // throws an error that lists the known kinds
   if (kind == "pipeline") {
     const PlanReport report = check_pipeline(path);
     return fmt::format("{}: a pipeline of {} nodes and {} steps, right{}", path, report.nodes,
@@ -91,8 +95,8 @@ std::string check_file(const std::string& path, std::string kind) {
   }
   const Effective effective = find_config_kind(kind)->check(load_yaml(path), ".");
   for (const Effective::File& file : effective.files) require_file(file.path, file.place, file.key);
-  if (const std::vector<Error> lost = unknown_names(effective.names); !lost.empty())
-    throw Failure(Exit::config, lost);
+  if (const std::vector<Error> unknown = unknown_names(effective.names); !unknown.empty())
+    throw Failure(Exit::config, unknown);
   std::vector<std::string> doubts = effective.notices;
   if (effective.check_data)
     for (const std::string& doubt : effective.check_data()) doubts.push_back(doubt);

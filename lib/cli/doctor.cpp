@@ -24,35 +24,39 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// first line of what a command of ours says; "" where it fails
-std::string said_by(const std::string& command) {
+// The first line that a command prints; empty if it fails. The commands are constants of this file.
+std::string first_output_line(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>/dev/null").c_str(), "r"),
                                                    pclose);
   std::array<char, 400> line{};
   if (!pipe || !std::fgets(line.data(), static_cast<int>(line.size()), pipe.get())) return "";
-  std::string text = line.data();
-  text.erase(std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }),
-             text.end());
-  return text;
+  const std::string text = line.data();
+  return text.substr(0, text.find_first_of("\r\n"));
 }
 
+// The file of a program on the PATH; empty if there is none.
 std::string on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
-  for (const std::string& folder : split(path ? path : "", ':'))
-    if (const fs::path file = fs::path(folder) / program;
-        access(file.c_str(), X_OK) == 0 && !fs::is_directory(file))
-      return file.string();
+  if (!path) return "";
+  for (const std::string& folder : split(path, ':')) {
+    const fs::path file = fs::path(folder) / program;
+    if (access(file.c_str(), X_OK) == 0 && !fs::is_directory(file)) return file.string();
+  }
   return "";
 }
 
+// A program that Langer can use.
 struct Tool {
-  const char *program, *ask, *without, *install;
+  const char* program;
+  const char* ask;      // command that prints its version; may be empty
+  const char* without;  // what does not work without it
+  const char* install;  // package of Debian; may be empty
   bool needed = false;
 };
 constexpr Tool tools[]{
     {"make", "make --version", "pipelines cannot run", "make", true},
     {"gnuplot", "gnuplot --version",
-     "figures are not drawn; their scripts and tables are there all the same", "gnuplot-nox"},
+     "figures are not drawn; their scripts and tables are written anyway", "gnuplot-nox"},
     {"python3", "python3 --version", "no Python package; all programs run without it", "python3"},
     {"sbatch", "sbatch --version", "langer-plan --slurm writes arrays for a machine that has Slurm",
      ""},
@@ -68,19 +72,23 @@ Finding tool(const Tool& t) {
   if (*t.install) install = fmt::format("; apt install {}", t.install);
   if (where.empty()) return {t.program, false, t.needed, t.without + install};
   std::string version;
-  if (*t.ask) version = said_by(t.ask);
-  return {t.program, true, t.needed,
-          version.empty() ? where : fmt::format("{} ({})", where, version)};
+  if (*t.ask) version = first_output_line(t.ask);
+  if (version.empty()) return {t.program, true, t.needed, where};
+  return {t.program, true, t.needed, fmt::format("{} ({})", where, version)};
 }
 
+// Whether all programs of Langer are in the folder of this one.
 Finding programs(const fs::path& bin) {
   std::string missing;
   std::size_t there = 0;
   std::vector<std::string> names = stage_names();
   names.push_back("plan");
-  for (const std::string& name : names)
-    access((bin / ("langer-" + name)).c_str(), X_OK) == 0 ? void(++there)
-                                                          : void(missing += " langer-" + name);
+  for (const std::string& name : names) {
+    if (access((bin / ("langer-" + name)).c_str(), X_OK) == 0)
+      ++there;
+    else
+      missing += " langer-" + name;
+  }
   if (missing.empty())
     return {"programs", true, true, fmt::format("{} in {}", there + 1, bin.string())};
   return {
@@ -88,20 +96,25 @@ Finding programs(const fs::path& bin) {
       fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
 }
 
-// what is loaded by a module of its own, whose libraries the loader has to find
+// A library that is loaded at run time by a module of Langer (gmsh, PETSc). It may be missing
+// although the module is there; ldd shows that.
 Finding module(const std::string& name, const std::string& without, const std::string& package) {
   const std::string path = module_path(name);
   if (!fs::exists(path)) return {name, false, false, without + "; there is no " + path};
-  if (const std::string lost = said_by("ldd '" + path + "' | grep 'not found'"); !lost.empty())
+  const std::string missing = first_output_line("ldd '" + path + "' | grep 'not found'");
+  if (!missing.empty())
     return {name, false, false,
             fmt::format("{}; {}: apt install {} (Debian 12)", without,
-                        lost.substr(lost.find_first_not_of(" \t")), package)};
+                        missing.substr(missing.find_first_not_of(" \t")), package)};
   return {name, true, false, path};
 }
 
+// A package of Python. It may be installed for the system's Python only, while `python3` is another
+// one.
 Finding python_package(const char* name, const char* debian, const char* without) {
   const auto ask = [&](const char* python) {
-    return said_by(fmt::format("{0} -c 'import {1}; print({1}.__version__)'", python, name));
+    return first_output_line(
+        fmt::format("{0} -c 'import {1}; print({1}.__version__)'", python, name));
   };
   const std::string version = ask("python3");
   if (version.empty() && !ask("/usr/bin/python3").empty())
@@ -140,11 +153,11 @@ std::vector<Finding> examine() {
              "libgmsh4.8"),
       module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time",
              "libpetsc-real3.18")};
-  findings.push_back(
-      report::has_three()
-          ? Finding{"three.js", true, false, "in langer-report"}
-          : Finding{"three.js", false, false,
-                    "reports have no body to turn; apt install libjs-three before building"});
+  if (report::has_three())
+    findings.push_back({"three.js", true, false, "in langer-report"});
+  else
+    findings.push_back({"three.js", false, false,
+                        "reports have no body to turn; apt install libjs-three before building"});
   for (const Tool& t : tools) findings.push_back(tool(t));
   if (!on_path("python3").empty()) {
     findings.push_back(python_package("h5py", "python3-h5py", "langer.read() reads no HDF5 files"));
@@ -158,16 +171,14 @@ std::string doctor_text(const std::vector<Finding>& findings) {
   std::size_t width = 0;
   for (const Finding& f : findings) width = std::max(width, f.what.size());
   std::string text;
-  for (const Finding& f : findings)
-    text += fmt::format("{}  {:<{}}  {}\n",
-                        f.there    ? "yes"
-                        : f.needed ? "NO "
-                                   : "no ",
-                        f.what, width, f.says);
-  const auto lost = std::count_if(findings.begin(), findings.end(),
-                                  [](const Finding& f) { return f.needed && !f.there; });
-  return text + (lost == 0 ? "Langer runs here; what is missing is optional\n"
-                           : "Langer does not run here: see NO\n");
+  for (const Finding& f : findings) {
+    std::string answer = "no ";
+    if (f.there) answer = "yes";
+    if (is_serious(f)) answer = "NO ";
+    text += fmt::format("{}  {:<{}}  {}\n", answer, f.what, width, f.says);
+  }
+  if (std::ranges::any_of(findings, is_serious)) return text + "Langer does not run here: see NO\n";
+  return text + "Langer runs here; what is missing is optional\n";
 }
 
 }  // namespace langer

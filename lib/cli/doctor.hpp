@@ -1,4 +1,5 @@
-// What is installed here of all that Langer can use, and what is missing without it.
+// `langer doctor`: which optional programs and libraries are installed on this machine, and what
+// Langer cannot do without the others.
 #pragma once
 
 #include <string>
@@ -9,11 +10,14 @@ namespace langer {
 struct Finding {
   std::string what;                    // "gnuplot"
   bool there = false, needed = false;  // needed: without it nothing runs
-  std::string
-      says;  // version and place, or what is missing without it and the command that installs it
+  // Version and place; or what does not work without it, and the command that installs it.
+  std::string says;
 };
 
-std::vector<Finding> examine();  // starts `gnuplot --version` and the like
+// A needed program or library is missing.
+inline bool is_serious(const Finding& f) { return f.needed && !f.there; }
+
+std::vector<Finding> examine();  // runs `gnuplot --version` and similar commands
 std::string doctor_text(const std::vector<Finding>& findings);
 
 }  // namespace langer

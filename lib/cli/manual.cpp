@@ -16,6 +16,8 @@ namespace {
 
 std::string longest_flag(const UsageOption& o) { return o.flags.substr(o.flags.rfind(',') + 1); }
 
+// Text in troff, the language of man pages: escapes backslashes, hyphens, quotes, and a full stop
+// at the beginning of a line.
 std::string roff(const std::string& s) {
   std::string out;
   for (const char c : s) {
@@ -41,6 +43,7 @@ Usage usage_of(const StageSpec& stage) {
 
 namespace {
 
+// A command of `langer`.
 Usage command(const char* program, const char* sentence, std::vector<UsageOption> options,
               const char* example) {
   for (UsageOption& o : common_options())
@@ -54,7 +57,7 @@ std::vector<Usage> table_of_commands() {
   kinds.push_back("pipeline");
   described.push_back("columns");
   return {
-      command("langer show", "Prints what is in a file that Langer made.",
+      command("langer show", "Prints the content of a file that Langer made.",
               {{"FILE",
                 "",
                 "mesh, material, solution, curves, sweep, sensitivity or snapshot; may be repeated",
@@ -78,42 +81,45 @@ std::vector<Usage> table_of_commands() {
                 true},
                {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
               "langer check pipelines/indentation.yaml configs/*/*.yaml"),
-      command(
-          "langer describe",
-          "Prints every key of a config: type, range, unit, default, meaning; or every column: unit, sign, meaning.",
-          {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())), "",
-            described, true}},
-          "langer describe solve"),
+      command("langer describe",
+              "Prints every key of a config: type, range, unit, default, meaning; or every column: "
+              "unit, sign, meaning.",
+              {{"KIND", "", fmt::format("columns, or one of {}", list_words(config_kind_names())),
+                "", described, true}},
+              "langer describe solve"),
       command("langer schema", "Prints the JSON Schema of a config, for editors.",
               {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
                {"--list", "", "print the kinds instead", "", {}}},
               "langer schema solve > solve.schema.json"),
-      command("langer explain", "Says why make would run a step of a run again.",
+      command("langer explain", "Explains why make would run a step of a run again.",
               {{"RUN", "", "folder of a run", "/", {}, true}}, "langer explain runs/indentation"),
-      command("langer times", "Says what each step of a run took, and which failed.",
+      command("langer times", "Prints time and memory of each step of a run, and which failed.",
               {{"RUN", "", "folder of a run", "/", {}, true},
                {"--failed", "", "only those that failed, with their logs", "", {}}},
               "langer times runs/indentation"),
       command(
           "langer crate",
-          "Describes a finished run for others as an RO-Crate: what made which file from what, checksums, a script that makes it again.",
+          "Describes a finished run for others as an RO-Crate: how each file was made, checksums, "
+          "a script that makes it again.",
           {{"RUN", "", "folder of a run", "/", {}, true},
-           {"--title", "TEXT", "what it is called; the pipeline's name by default", "", {}},
+           {"--title", "TEXT", "its title; the pipeline's name by default", "", {}},
            {"--author", "NAME", "who made it", "", {}},
            {"--license", "TEXT", "under which others may use it, best as a URL", "", {}},
            {"--root",
             "DIR",
-            "folder of the project: data are copied from below it only; by default the current folder",
+            "folder of the project: data are copied from below it only; by default the current "
+            "folder",
             "/",
             {}},
            {"--same-as",
             "RUN",
-            "instead: say whether another folder of the same run has the same results",
+            "compare instead: whether another folder of the same run has the same results",
             "/",
             {}}},
           "langer crate runs/indentation --license https://creativecommons.org/licenses/by/4.0/"),
       command("langer doctor",
-              "Says what is installed here of what Langer can use, and what is missing without it.",
+              "Lists the programs and libraries that Langer can use, and what does not work "
+              "without the missing ones.",
               {}, "langer doctor"),
       command("langer man", "Prints the man page of a program.",
               {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
@@ -133,7 +139,8 @@ const std::vector<Usage>& langer_commands() {
 Usage langer_usage() {
   Usage u{
       "langer",
-      "Looks at files, starts projects and checks configs; the work is done by langer-mesh, langer-solve, ...",
+      "Shows files, starts projects and checks configs; the computations are done by langer-mesh, "
+      "langer-solve, ...",
       {},
       {},
       "",
@@ -143,7 +150,8 @@ Usage langer_usage() {
     const std::string name = c.program.substr(7);
     u.options.push_back({name, "", c.sentence, "", {}});
   }
-  u.options.push_back({"-h,--help", "", "this page; langer COMMAND --help says more", "", {}});
+  u.options.push_back(
+      {"-h,--help", "", "this page; langer COMMAND --help explains a command", "", {}});
   u.options.push_back({"--version", "", "version of this build", "", {}});
   for (const Usage& c : langer_commands())
     if (c.program == "langer new" || c.program == "langer show" || c.program == "langer check" ||
@@ -163,48 +171,104 @@ std::vector<Usage> all_usages() {
   return all;
 }
 
+namespace {
+
+// The options of a program as a list of troff.
+std::string man_options(const Usage& u) {
+  std::string s;
+  for (const UsageOption& o : u.options)
+    s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
+  return s;
+}
+
+// Lines that are not filled.
+std::string man_lines(const std::string& lines) {
+  std::string s = ".nf\n";
+  for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
+  return s + ".fi\n";
+}
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return text;
+}
+
+}  // namespace
+
 std::string man_text(const Usage& u) {
   std::string name = u.program;
   std::replace(name.begin(), name.end(), ' ', '-');
-  std::string upper = name;
-  for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
   std::string s = fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n",
-                              upper, version, roff(name), roff(u.sentence));
-  s += ".SH SYNOPSIS\n.B " +
-       roff(u.program == "langer" ? "langer COMMAND [options]" : synopsis(u)) + "\n";
-  const auto options = [&s](const Usage& of) {
-    for (const UsageOption& o : of.options)
-      s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
-  };
-  s += u.program == "langer" ? ".SH COMMANDS\n" : ".SH OPTIONS\n";
-  options(u);
-  if (u.program == "langer")
-    for (const Usage& c : langer_commands()) {
-      s += ".SS " + roff(synopsis(c)) + "\n" + roff(c.sentence) + "\n";
-      options(c);
-    }
-  const auto as_it_is = [&s](const std::string& lines) {
-    s += ".nf\n";
-    for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
-    s += ".fi\n";
-  };
+                              upper_case(name), version, roff(name), roff(u.sentence));
+  s += ".SH SYNOPSIS\n.B " + roff(usage_line(u)) + "\n";
+  if (u.program == "langer") {
+    s += ".SH COMMANDS\n" + man_options(u);
+    for (const Usage& c : langer_commands())
+      s += ".SS " + roff(synopsis(c)) + "\n" + roff(c.sentence) + "\n" + man_options(c);
+  } else {
+    s += ".SH OPTIONS\n" + man_options(u);
+  }
   if (!u.reference.empty()) {
     s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n";
-    as_it_is(u.reference);
+    s += man_lines(u.reference);
   }
-  s += ".SH EXAMPLES\n";
-  as_it_is(u.examples);
+  s += ".SH EXAMPLES\n" + man_lines(u.examples);
   s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
-  s +=
-      ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colour on a terminal\n.TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
+  s += ".SH ENVIRONMENT\n"
+       ".TP\n.B NO_COLOR\nno colour on a terminal\n"
+       ".TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
   if (!u.more.empty()) s += ".SH NOTES\n" + roff(u.more) + "\n";
   s += ".SH SEE ALSO\n";
   std::string others;
   for (const Usage& other : all_usages())
-    if (other.program != u.program)
-      others += (others.empty() ? ".BR " : ",\n.BR ") + roff(other.program) + " (1)";
+    if (other.program != u.program) append(others, ",\n", ".BR " + roff(other.program) + " (1)");
   return s + others + "\n";
 }
+
+namespace {
+
+// The values of an option that takes words or files, as bash completes them.
+std::string completed_value(const UsageOption& o) {
+  if (!o.words.empty())
+    return fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"));", fmt::join(o.words, " "));
+  if (!o.files.empty()) return fmt::format("_langer_files {};", o.files);
+  return "";
+}
+
+// The positional arguments of a program, which may be words and files.
+std::string completed_places(const Usage& u) {
+  std::string s;
+  for (const UsageOption& o : u.options) {
+    if (!is_place(o)) continue;
+    if (!o.words.empty())
+      s += fmt::format("  COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n", fmt::join(o.words, " "));
+    if (!o.files.empty()) s += fmt::format("  _langer_files {}\n", o.files);
+  }
+  return s;
+}
+
+// A function of bash that completes the arguments of one program: after an option its value,
+// otherwise names of options, or positional arguments.
+std::string completion_function(const Usage& u, const std::string& function) {
+  std::string flags;
+  std::string s = function + "() {\n  case $prev in\n";
+  for (const UsageOption& o : u.options) {
+    if (is_place(o)) continue;
+    append(flags, " ", longest_flag(o));
+    if (o.value.empty()) continue;
+    std::string patterns = o.flags;
+    std::replace(patterns.begin(), patterns.end(), ',', '|');
+    s += fmt::format("    {}) {} return ;;\n", patterns, completed_value(o));
+  }
+  s += "  esac\n";
+  s += fmt::format(
+      "  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}", flags,
+      completed_places(u));
+  return s + "}\n";
+}
+
+}  // namespace
 
 std::string completion_text() {
   std::string s =
@@ -212,37 +276,10 @@ std::string completion_text() {
       "_langer_files() {  # endings...\n"
       "  local end IFS=$'\\n'\n"
       "  COMPREPLY+=($(compgen -d -- \"$cur\"))\n"
-      "  for end in \"$@\"; do [ \"$end\" = / ] || COMPREPLY+=($(compgen -f -X \"!*.$end\" -- \"$cur\")); done\n"
+      "  for end in \"$@\"; do [ \"$end\" = / ] || "
+      "COMPREPLY+=($(compgen -f -X \"!*.$end\" -- \"$cur\")); done\n"
       "  compopt -o filenames\n"
       "}\n";
-  const auto cases = [&s](const Usage& u, const std::string& function) {
-    std::string flags, places;
-    s += function + "() {\n  case $prev in\n";
-    for (const UsageOption& o : u.options) {
-      if (is_place(o)) {
-        if (!o.words.empty())
-          places += fmt::format("  COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n",
-                                fmt::join(o.words, " "));
-        if (!o.files.empty()) places += fmt::format("  _langer_files {}\n", o.files);
-        continue;
-      }
-      flags += " " + longest_flag(o);
-      if (o.value.empty()) continue;
-      std::string patterns = o.flags;
-      std::replace(patterns.begin(), patterns.end(), ',', '|');
-      s += fmt::format("    {}) ", patterns);
-      if (!o.words.empty())
-        s += fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"));", fmt::join(o.words, " "));
-      else if (!o.files.empty())
-        s += fmt::format("_langer_files {};", o.files);
-      s += " return ;;\n";
-    }
-    s += "  esac\n";
-    s += fmt::format(
-        "  [[ $cur == -* ]] && {{ COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return; }}\n{}",
-        flags.empty() ? "" : flags.substr(1), places);
-    s += "}\n";
-  };
   const auto words =
       "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
   std::vector<std::string> programs;
@@ -250,19 +287,21 @@ std::string completion_text() {
     if (u.program == "langer") continue;
     std::string function = "_" + u.program;
     std::replace(function.begin(), function.end(), '-', '_');
-    cases(u, function + "_options");
+    s += completion_function(u, function + "_options");
     s += fmt::format("{}() {{\n{}  {}_options\n}}\ncomplete -F {} {}\n", function, words, function,
                      function, u.program);
   }
-  std::string names, branches;
+  std::string names;
+  std::string branches;
   for (const Usage& c : langer_commands()) {
     const std::string name = c.program.substr(7);
-    cases(c, "_langer_command_" + name);
+    s += completion_function(c, "_langer_command_" + name);
     names += " " + name;
     branches += fmt::format("    {}) _langer_command_{} ;;\n", name, name);
   }
   s += fmt::format(
-      "_langer() {{\n{}  if [ $COMP_CWORD = 1 ]; then COMPREPLY=($(compgen -W '{} --help --version' -- \"$cur\")); return; fi\n"
+      "_langer() {{\n{}  if [ $COMP_CWORD = 1 ]; then "
+      "COMPREPLY=($(compgen -W '{} --help --version' -- \"$cur\")); return; fi\n"
       "  case ${{COMP_WORDS[1]}} in\n{}  esac\n}}\ncomplete -F _langer langer\n",
       words, names.substr(1), branches);
   return s;

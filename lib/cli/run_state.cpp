@@ -28,28 +28,30 @@ std::string without_ending(const std::string& target) {
   return target.substr(0, target.rfind('.'));
 }
 
+// The leaves of a config by the path of their key.
 void flatten(const Tree& tree, const std::string& path,
              std::map<std::string, std::string>& leaves) {
-  for (const auto& [key, value] : tree.map)
-    flatten(value, path.empty() ? key : path + "." + key, leaves);
+  for (const auto& [key, value] : tree.map) {
+    std::string inner = key;
+    if (!path.empty()) inner = path + "." + key;
+    flatten(value, inner, leaves);
+  }
   for (std::size_t i = 0; i < tree.list.size(); ++i)
     flatten(tree.list[i], fmt::format("{}[{}]", path, i), leaves);
-  if (tree.kind == Tree::Kind::scalar || (tree.map.empty() && tree.list.empty())) {
-    if (tree.kind == Tree::Kind::scalar) {
-      leaves[path] = tree.scalar;
-    } else {
-      leaves[path] = "none";
-    }
-  }
+  if (tree.kind == Tree::Kind::scalar)
+    leaves[path] = tree.scalar;
+  else if (tree.map.empty() && tree.list.empty())
+    leaves[path] = "none";
 }
 
-// what the file was made from against what its config says now
+// Differences between the config that a file was made from and its config of today.
 std::vector<std::string> changed_keys(const MadeBy& rule) {
   std::vector<std::string> changes;
   const ConfigKind* kind = find_config_kind(rule.stage);
   if (!kind || fs::path(rule.target).extension() != ".h5") return changes;
   try {
-    std::map<std::string, std::string> before, now;
+    std::map<std::string, std::string> before;
+    std::map<std::string, std::string> now;
     flatten(parse_yaml(read_origin(rule.target).identity.config, "before"), "", before);
     flatten(parse_yaml(kind->check(load_yaml(rule.prerequisites.at(0)), ".").text, "now"), "", now);
     for (const auto& [key, value] : now) {
@@ -68,6 +70,7 @@ std::vector<std::string> changed_keys(const MadeBy& rule) {
   return changes;
 }
 
+// Changes the working directory for its lifetime.
 struct InFolder {
   fs::path before = fs::current_path();
   explicit InFolder(const std::string& folder) { fs::current_path(folder); }
@@ -77,13 +80,15 @@ struct InFolder {
   }
 };
 
+// Whether a path leaves the folder that it is relative to.
 bool leads_out(const std::string& path) {
   const fs::path normal = fs::path(path).lexically_normal();
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
-// Throws unless the rule is one that langer-plan writes. A run's folder may come from somebody
-// else, and what its Makefile names is read and copied by what uses these rules.
+// Throws unless the rule is one that langer-plan writes. A run's folder may come from another
+// person, and the files that its Makefile names are read and copied. So a rule must not name files
+// outside of what a plan would.
 void check_rule(const MadeBy& rule, const Place& place) {
   std::string found;
   if (rule.prerequisites.empty() || !find_stage(rule.stage)) {
@@ -103,9 +108,37 @@ void check_rule(const MadeBy& rule, const Place& place) {
                                    "langer-plan makes the Makefile again"});
 }
 
+// Reads a log into the times of a step. A log may have several runs, each begun by "# langer-..."
+// and ended by "# end: ..."; the last one counts.
+void read_log(std::ifstream& log, StepTimes& step) {
+  for (std::string line; std::getline(log, line);) {
+    if (line.starts_with("# langer-")) step.exit = -1;
+    if (std::sscanf(line.c_str(), "# end: exit %d, %lf s, %lf s of CPU, %lf MB", &step.exit,
+                    &step.wall, &step.cpu, &step.MB) == 4)
+      continue;
+    if (!line.starts_with("#") && !line.starts_with("  hint:")) step.last = line;
+  }
+}
+
+// The state of a step in one or two words.
+std::string state_words(const StepTimes& t) {
+  if (t.log.empty()) return "not run";
+  if (t.exit == 0) return "done";
+  if (t.exit < 0) return "not ended";
+  return fmt::format("failed, {}", t.exit);
+}
+
+// A failed step with its log and its last message.
+std::string failure_text(const StepTimes& t) {
+  std::string end = "no end: running still, or killed";
+  if (t.exit >= 0) end = fmt::format("exit {}", t.exit);
+  std::string text = fmt::format("{}: {}; log: {}\n", t.step, end, t.log);
+  if (!t.last.empty()) text += "  " + t.last + "\n";
+  return text;
+}
+
 }  // namespace
 
-// the rules of a Makefile of ours (pipeline/makefile.cpp)
 std::vector<MadeBy> rules_of(const std::string& folder) {
   const fs::path path = fs::path(folder) / "Makefile";
   std::ifstream file;
@@ -143,22 +176,13 @@ std::vector<StepTimes> times_of(const std::string& folder) {
     step.log = (fs::path(folder) / (step.step + ".log")).lexically_normal().string();
     std::ifstream log;
     if (unreadable_reason(step.log).empty()) log.open(step.log);
-    if (!log.is_open()) {
+    if (log.is_open())
+      read_log(log, step);
+    else
       step.log.clear();
-      times.push_back(std::move(step));
-      continue;
-    }
-    for (std::string line; std::getline(log, line);) {
-      if (line.rfind("# langer-", 0) == 0) step.exit = -1;  // continued
-      if (std::sscanf(line.c_str(), "# end: exit %d, %lf s, %lf s of CPU, %lf MB", &step.exit,
-                      &step.wall, &step.cpu, &step.MB) == 4)
-        continue;
-      if (line.rfind("#", 0) != 0 && line.rfind("  hint:", 0) != 0) step.last = line;
-    }
     times.push_back(std::move(step));
   }
-  std::sort(times.begin(), times.end(),
-            [](const StepTimes& a, const StepTimes& b) { return a.step < b.step; });
+  std::ranges::sort(times, {}, &StepTimes::step);
   return times;
 }
 
@@ -169,20 +193,12 @@ std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
                                   "s", "CPU s", "MB");
   std::string failed;
   double cpu = 0;
-  std::size_t done = 0, bad = 0, never = 0;
+  std::size_t done = 0;
+  std::size_t bad = 0;
+  std::size_t never = 0;
   for (const StepTimes& t : times) {
-    std::string state;
-    if (t.log.empty()) {
-      state = "not run";
-    } else if (t.exit == 0) {
-      state = "done";
-    } else if (t.exit < 0) {
-      state = "not ended";
-    } else {
-      state = fmt::format("failed, {}", t.exit);
-    }
-    const bool ended = t.exit >= 0;
-    if (ended) {
+    const std::string state = state_words(t);
+    if (t.exit >= 0) {
       table += fmt::format("{:<{}}  {:<14}  {:>9.2f}  {:>9.2f}  {:>7.0f}\n", t.step, width, state,
                            t.wall, t.cpu, t.MB);
     } else {
@@ -191,12 +207,9 @@ std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
     cpu += t.cpu;
     done += t.exit == 0;
     never += t.log.empty();
-    bad += !t.log.empty() && t.exit != 0;
-    if (!t.log.empty() && t.exit != 0)
-      failed +=
-          fmt::format("{}: {}; log: {}\n{}", t.step,
-                      ended ? fmt::format("exit {}", t.exit) : "no end: running still, or killed",
-                      t.log, t.last.empty() ? "" : "  " + t.last + "\n");
+    if (t.log.empty() || t.exit == 0) continue;
+    ++bad;
+    failed += failure_text(t);
   }
   const std::string total =
       fmt::format("{} steps: {} done, {} failed or not ended, {} not run; {:.1f} s of CPU\n",
@@ -205,57 +218,68 @@ std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
   return table + total + failed;
 }
 
+namespace {
+
+// Finds why make would run the steps of a run again, from the times of files as make does. The
+// working directory is the run's folder. Rules are in the order of the pipeline, which need not be
+// the order of the work, so the prerequisites of a rule are examined before the rule.
+class Explanation {
+ public:
+  explicit Explanation(const std::vector<MadeBy>& rules) {
+    for (const MadeBy& rule : rules) rules_[rule.target] = &rule;
+  }
+
+  const StepReasons& of(const MadeBy& rule) {
+    const auto [found, is_new] = steps_.try_emplace(rule.target);
+    StepReasons& step = found->second;
+    if (!is_new) return step;
+    step.target = rule.target;
+    for (const std::string& p : rule.prerequisites)
+      if (const auto maker = rules_.find(p); maker != rules_.end()) of(*maker->second);
+    std::error_code ec;
+    const auto made = fs::last_write_time(rule.target, ec);
+    if (!ec) {
+      for (const std::string& p : rule.prerequisites) add_reasons(rule, p, made, step);
+    } else if (fs::exists(rule.target + ".part")) {
+      step.reasons.push_back("not finished; it continues from " + rule.target + ".part");
+    } else {
+      step.reasons.push_back("not made yet");
+    }
+    if (!step.reasons.empty()) again_.insert(rule.target);
+    return step;
+  }
+
+ private:
+  std::map<std::string, const MadeBy*> rules_;  // by target
+  std::map<std::string, StepReasons> steps_;
+  std::set<std::string> again_;  // targets that would be made again
+
+  // Why one prerequisite makes a step run again. Of a changed config the changed keys are named.
+  void add_reasons(const MadeBy& rule, const std::string& p, fs::file_time_type made,
+                   StepReasons& step) const {
+    if (again_.count(p)) return step.reasons.push_back(p + " is made again");
+    std::error_code ec;
+    const auto changed = fs::last_write_time(p, ec);
+    if (ec) return step.reasons.push_back(p + " is missing");
+    if (changed <= made) return;
+    if (p != rule.prerequisites[0]) return step.reasons.push_back(p + " is newer");
+    const std::vector<std::string> keys = changed_keys(rule);
+    if (keys.empty()) step.reasons.push_back(p + " is newer: other inputs");
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, keys.size()); ++i) step.reasons.push_back(keys[i]);
+    if (keys.size() > most)
+      step.reasons.push_back(fmt::format("{} more keys of {}", keys.size() - most, p));
+  }
+};
+
+}  // namespace
+
 std::vector<StepReasons> explain(const std::string& folder) {
   const std::vector<MadeBy> rules = rules_of(folder);
   const InFolder here(folder);
-  std::set<std::string> again;
+  Explanation explanation(rules);
   std::vector<StepReasons> steps;
-  // rules stand in the order of the pipeline, which need not be that of the work
-  std::map<std::string, const MadeBy*> by_target;
-  for (const MadeBy& rule : rules) by_target[rule.target] = &rule;
-  std::map<std::string, StepReasons> found;
-  const auto look = [&](const auto& self, const MadeBy& rule) -> void {
-    if (found.count(rule.target)) return;
-    StepReasons& step = found[rule.target];
-    step.target = rule.target;
-    for (const std::string& p : rule.prerequisites)
-      if (const auto maker = by_target.find(p); maker != by_target.end())
-        self(self, *maker->second);
-    std::error_code ec;
-    const auto made = fs::last_write_time(rule.target, ec);
-    if (ec) {
-      step.reasons.push_back(fs::exists(rule.target + ".part")
-                                 ? "not finished; it continues from " + rule.target + ".part"
-                                 : "not made yet");
-    } else {
-      for (const std::string& p : rule.prerequisites) {
-        const auto changed = fs::last_write_time(p, ec);
-        if (again.count(p)) {
-          step.reasons.push_back(p + " is made again");
-          continue;
-        }
-        if (ec) {
-          step.reasons.push_back(p + " is missing");
-          continue;
-        }
-        if (changed <= made) continue;
-        if (p != rule.prerequisites[0]) {
-          step.reasons.push_back(p + " is newer");
-          continue;
-        }
-        const std::vector<std::string> keys = changed_keys(rule);
-        if (keys.empty()) step.reasons.push_back(p + " is newer: other inputs");
-        constexpr std::size_t most = 5;
-        for (std::size_t i = 0; i < std::min(most, keys.size()); ++i)
-          step.reasons.push_back(keys[i]);
-        if (keys.size() > most)
-          step.reasons.push_back(fmt::format("{} more keys of {}", keys.size() - most, p));
-      }
-    }
-    if (!step.reasons.empty()) again.insert(rule.target);
-  };
-  for (const MadeBy& rule : rules) look(look, rule);
-  for (const MadeBy& rule : rules) steps.push_back(found.at(rule.target));
+  for (const MadeBy& rule : rules) steps.push_back(explanation.of(rule));
   return steps;
 }
 

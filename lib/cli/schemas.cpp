@@ -20,7 +20,7 @@ std::vector<std::string> schema_kinds() {
 
 bool has_schema(const std::string& kind) {
   const std::vector<std::string> known = schema_kinds();
-  return std::find(known.begin(), known.end(), kind) != known.end();
+  return std::ranges::find(known, kind) != known.end();
 }
 
 std::string schema_text(const std::string& kind) {

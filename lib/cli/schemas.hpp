@@ -10,7 +10,7 @@ std::vector<std::string> schema_kinds();
 bool has_schema(const std::string& kind);
 std::string schema_text(const std::string& kind);  // throws Failure(config) with the known kinds
 std::string schema_file(const std::string& kind);  // "solve.schema.json"
-// the line that tells an editor where the schema lies, seen from the file
+// The comment by which an editor finds the schema. `folder`: of the schema, relative to the file.
 std::string schema_line(const std::string& kind, const std::string& folder);
 
 }  // namespace langer

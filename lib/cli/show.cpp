@@ -29,7 +29,7 @@ std::string size_words(std::uintmax_t bytes) {
   return fmt::format("{:.1f} MB", 1e-6 * b);
 }
 
-// what is said under one heading; long lists go on in the next line
+// Lines with a heading, lists that are wrapped, and tables.
 class Page {
  public:
   std::string text;
@@ -68,11 +68,19 @@ class Page {
 };
 
 std::string number(double x) { return fmt::format("{:.6g}", x); }
+
+// A number, or words where it is not finite.
+std::string number_or(double x, std::string_view alternative) {
+  if (!std::isfinite(x)) return std::string(alternative);
+  return number(x);
+}
+
 std::string with_unit(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
   return name + " [" + unit + "]";
 }
 
+// A set of one node is an observation point, and shown with its place.
 void show_mesh(Page& page, const Mesh& mesh) {
   std::vector<int> cells(std::max<std::size_t>(1, mesh.bodies.size()));
   for (int b : mesh.body) ++cells.at(static_cast<std::size_t>(b));
@@ -81,12 +89,13 @@ void show_mesh(Page& page, const Mesh& mesh) {
     bodies.push_back(fmt::format("{} ({} cells)", mesh.bodies[i], cells[i]));
   page.line("size", fmt::format("{} cells, {} nodes", mesh.n_cells(), mesh.n_nodes()));
   page.list("bodies", bodies);
-  if (mesh.section)
-    page.line("section",
-              fmt::format(
-                  "{}, {} deep{}", names(mesh.section->of)[static_cast<int>(mesh.section->of)],
-                  number(mesh.section->depth),
-                  mesh.section->of == SectionOf::axisymmetric ? " for each mm of radius" : " mm"));
+  if (mesh.section) {
+    std::string unit = " mm";
+    if (mesh.section->of == SectionOf::axisymmetric) unit = " for each mm of radius";
+    page.line("section", fmt::format("{}, {} deep{}",
+                                     names(mesh.section->of)[static_cast<int>(mesh.section->of)],
+                                     number(mesh.section->depth), unit));
+  }
   Vec3 low = Vec3::Constant(INFINITY);
   Vec3 high = -low;
   for (const Vec3& X : mesh.X) {
@@ -96,14 +105,17 @@ void show_mesh(Page& page, const Mesh& mesh) {
   page.line("box",
             fmt::format("x {} to {}, y {} to {}, z {} to {} mm", number(low[0]), number(high[0]),
                         number(low[1]), number(high[1]), number(low[2]), number(high[2])));
-  std::vector<std::string> nodes, points, facets;
+  std::vector<std::string> nodes;
+  std::vector<std::string> points;
+  std::vector<std::string> facets;
   for (const auto& [name, set] : mesh.node_sets) {
     if (set.size() == 1) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(set[0])];
       points.push_back(
           fmt::format("{} ({}, {}, {})", name, number(X[0]), number(X[1]), number(X[2])));
-    } else
+    } else {
       nodes.push_back(fmt::format("{} {}", name, set.size()));
+    }
   }
   for (const auto& [name, set] : mesh.facet_sets)
     facets.push_back(fmt::format("{} {}", name, set.size()));
@@ -112,20 +124,19 @@ void show_mesh(Page& page, const Mesh& mesh) {
   page.list("facet sets", facets);
 }
 
-void show_law(Page& page, const Material& material) {
-  page.text += "law\n";
+void show_model(Page& page, const Material& material) {
+  page.text += "material\n";
   for (const std::string& line : split(to_yaml(material), '\n')) page.text += "  " + line + "\n";
 }
 
 void show_material(Page& page, const std::string& path) {
   const MaterialFile file = read_material(path);
-  show_law(page, file.material);
+  show_model(page, file.material);
   if (!file.fit) return;
   std::vector<std::vector<std::string>> rows{
       {"parameter", "value", "standard error", "bounds", "unit"}};
   for (const FittedParameter& p : file.fit->parameters)
-    rows.push_back({p.name, number(p.value),
-                    std::isfinite(p.standard_error) ? number(p.standard_error) : "not determined",
+    rows.push_back({p.name, number(p.value), number_or(p.standard_error, "not determined"),
                     fmt::format("{} to {}", number(p.lower), number(p.upper)), p.unit});
   page.table("fitted", rows);
   rows = {{"test", "kind", "points", "r2", "mean error %", "largest error %"}};
@@ -134,6 +145,40 @@ void show_material(Page& page, const std::string& path) {
                     fmt::format("{:.3g}", t.mean_error_percent),
                     fmt::format("{:.3g}", t.max_error_percent)});
   page.table("tests", rows);
+}
+
+// The table of steps of a solution. With several indenters each has a column of its force: the sum
+// of their forces may vanish, as in a pinch. Of many steps only the first and last five are shown.
+void show_steps(Page& page, const SolutionReader& file) {
+  const SolutionHeader& header = file.header();
+  const bool contact = !header.contact_nodes.empty();
+  std::vector<std::string> forces;  // columns of several indenters
+  if (header.contact_nodes.size() > 1)
+    for (const auto& [name, nodes] : header.contact_nodes) forces.push_back("force_" + name);
+  std::vector<std::vector<std::string>> rows{{"step", "t", "iterations", "residual"}};
+  if (contact) rows[0].push_back("u_ind mm");
+  if (contact && forces.empty()) rows[0].push_back("force N");
+  for (const std::string& force : forces) rows[0].push_back(force + " N");
+  rows[0].push_back("largest u mm");
+  for (int i = 0; i < file.n_steps(); ++i) {
+    if (file.n_steps() > 12 && i == 5) rows.push_back({"..."});
+    if (file.n_steps() > 12 && i >= 5 && i < file.n_steps() - 5) continue;
+    const StepRecord step = file.step(i);
+    double u = 0;
+    for (const Vec3& v : step.u) u = std::max(u, v.norm());
+    rows.push_back({std::to_string(i + 1), number(step.t), std::to_string(step.iterations),
+                    fmt::format("{:.1e}", step.residual)});
+    if (contact) rows.back().push_back(number(step.u_ind.norm()));
+    if (contact && forces.empty()) rows.back().push_back(number(step.force_ind.norm()));
+    for (const std::string& force : forces) {
+      const auto found = step.scalars.find(force);
+      std::string value;
+      if (found != step.scalars.end()) value = number(found->second);
+      rows.back().push_back(value);
+    }
+    rows.back().push_back(number(u));
+  }
+  page.table(fmt::format("{} steps", file.n_steps()), rows);
 }
 
 void show_solution(Page& page, const std::string& path) {
@@ -146,62 +191,43 @@ void show_solution(Page& page, const std::string& path) {
     contacts.push_back(fmt::format("{} ({} candidates)", name, nodes.size()));
   page.list("contacts", contacts);
   if (header.materials.empty())
-    show_law(page, header.material);
+    show_model(page, header.material);
   else
-    for (const Material& m : header.materials) show_law(page, m);
+    for (const Material& m : header.materials) show_model(page, m);
   std::vector<std::string> fields;
   if (file.n_steps() > 0)
     for (const auto& [name, values] : file.step(0).cell_fields) fields.push_back(name);
   page.list("cell fields", fields);
-  const bool contact = !header.contact_nodes.empty();
-  std::vector<std::vector<std::string>> rows{{"step", "t", "iterations", "residual"}};
-  std::vector<std::string>
-      several;  // indenters: the sum of their forces may be that of a pinch, nothing
-  if (header.contact_nodes.size() > 1)
-    for (const auto& [name, nodes] : header.contact_nodes) several.push_back("force_" + name);
-  if (contact) rows[0].push_back("u_ind mm");
-  if (contact && several.empty()) rows[0].push_back("force N");
-  for (const std::string& force : several) rows[0].push_back(force + " N");
-  rows[0].push_back("largest u mm");
-  for (int i = 0; i < file.n_steps(); ++i) {
-    if (file.n_steps() > 12 && i == 5) rows.push_back({"..."});
-    if (file.n_steps() > 12 && i >= 5 && i < file.n_steps() - 5) continue;
-    const StepRecord step = file.step(i);
-    double u = 0;
-    for (const Vec3& v : step.u) u = std::max(u, v.norm());
-    rows.push_back({std::to_string(i + 1), number(step.t), std::to_string(step.iterations),
-                    fmt::format("{:.1e}", step.residual)});
-    if (contact) rows.back().push_back(number(step.u_ind.norm()));
-    if (contact && several.empty()) rows.back().push_back(number(step.force_ind.norm()));
-    for (const std::string& force : several) {
-      const auto found = step.scalars.find(force);
-      rows.back().push_back(found == step.scalars.end() ? "" : number(found->second));
-    }
-    rows.back().push_back(number(u));
+  show_steps(page, file);
+}
+
+// A row of the table of columns: name, number of rows, first, last, smallest and largest value.
+std::vector<std::string> column_row(const Column& c) {
+  std::vector<std::string> row{
+      with_unit(c.name, c.unit), std::to_string(c.values.size()), "-", "-", "-", "-"};
+  if (c.values.empty()) return row;
+  row[2] = number(c.values.front());
+  row[3] = number(c.values.back());
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const double x : c.values) {
+    if (!std::isfinite(x)) continue;
+    low = std::min(low, x);
+    high = std::max(high, x);
   }
-  page.table(fmt::format("{} steps", file.n_steps()), rows);
+  row[4] = number_or(low, "-");
+  row[5] = number_or(high, "-");
+  return row;
 }
 
 void show_curves(Page& page, const std::string& path) {
   const Curves curves = read_curves(path).curves;
   std::vector<std::vector<std::string>> rows{
       {"column", "rows", "first", "last", "least", "largest"}};
-  for (const Column& c : curves.columns) {
-    std::vector<double> finite;
-    std::copy_if(c.values.begin(), c.values.end(), std::back_inserter(finite),
-                 [](double x) { return std::isfinite(x); });
-    const auto extreme = [&](bool low) {
-      return finite.empty() ? std::string("-")
-                            : number(low ? *std::min_element(finite.begin(), finite.end())
-                                         : *std::max_element(finite.begin(), finite.end()));
-    };
-    rows.push_back({with_unit(c.name, c.unit), std::to_string(c.values.size()),
-                    c.values.empty() ? "-" : number(c.values.front()),
-                    c.values.empty() ? "-" : number(c.values.back()), extreme(true),
-                    extreme(false)});
-  }
+  for (const Column& c : curves.columns) rows.push_back(column_row(c));
   page.table("columns", rows);
-  std::vector<std::string> maps, names;
+  std::vector<std::string> maps;
+  std::vector<std::string> names;
   for (const SurfaceMap& m : curves.maps)
     maps.push_back(fmt::format("{} of {} at t = {} ({} nodes)", m.name, with_unit(m.label, m.unit),
                                number(m.t), m.values.size()));
@@ -210,7 +236,7 @@ void show_curves(Page& page, const std::string& path) {
   page.list("maps", maps);
 }
 
-// every dataset, for kinds of file without a reader of their own
+// All datasets of a kind of file that has no reader of its own.
 void show_tree(Page& page, const h5::Group& group, const std::string& prefix) {
   for (const std::string& name : group.datasets()) {
     std::string shape;
@@ -222,6 +248,19 @@ void show_tree(Page& page, const h5::Group& group, const std::string& prefix) {
       show_tree(page, group.group(name), prefix + name + "/");
 }
 
+// A column of a sweep's table: its name and its values, which may be words.
+std::vector<std::string> sweep_column(const h5::Group& group, const std::string& name) {
+  std::vector<std::string> column{with_unit(name, group.unit(name))};
+  const std::vector<std::string> words = split(group.annotation(name, "words"), ' ');
+  if (words.empty()) {
+    for (double x : group.read<double>(name, {h5::any}).values) column.push_back(number_or(x, "-"));
+  } else {
+    for (std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values)
+      column.push_back(words.at(static_cast<std::size_t>(i)));
+  }
+  return column;
+}
+
 void show_sweep(Page& page, const h5::Group& root) {
   const std::string members = root.read_text("members");
   std::vector<std::vector<std::string>> rows{{}};
@@ -229,19 +268,10 @@ void show_sweep(Page& page, const h5::Group& root) {
   for (const char* kind : {"axis", "values"}) {
     if (!root.has(kind)) continue;
     const h5::Group group = root.group(kind);
-    for (const std::string& name : group.datasets()) {
-      std::vector<std::string> column{with_unit(name, group.unit(name))};
-      const std::vector<std::string> words = split(group.annotation(name, "words"), ' ');
-      if (words.empty())
-        for (double x : group.read<double>(name, {h5::any}).values)
-          column.push_back(std::isfinite(x) ? number(x) : "-");
-      else
-        for (std::int64_t i : group.read<std::int64_t>(name, {h5::any}).values)
-          column.push_back(words.at(static_cast<std::size_t>(i)));
-      columns.push_back(std::move(column));
-    }
+    for (const std::string& name : group.datasets()) columns.push_back(sweep_column(group, name));
   }
-  rows.assign(columns.empty() ? 0 : columns[0].size(), {});
+  rows.clear();
+  if (!columns.empty()) rows.resize(columns[0].size());
   for (const auto& column : columns)
     for (std::size_t i = 0; i < column.size() && i < rows.size(); ++i) rows[i].push_back(column[i]);
   page.table(fmt::format("{} members",
@@ -269,6 +299,19 @@ void show_sensitivity(Page& page, const h5::Group& root) {
   page.list("methods", methods);
 }
 
+// The parts of a file, by its kind.
+void show_parts(Page& page, const std::string& schema, const std::string& path,
+                const h5::Group& root) {
+  if (schema == mesh_schema.name) return show_mesh(page, read_mesh(path).mesh);
+  if (schema == material_schema.name) return show_material(page, path);
+  if (schema == solution_schema.name) return show_solution(page, path);
+  if (schema == curves_schema.name) return show_curves(page, path);
+  if (schema == sweep_schema.name) return show_sweep(page, root);
+  if (schema == sensitivity_schema.name) return show_sensitivity(page, root);
+  page.line("datasets", "");
+  show_tree(page, root, "/");
+}
+
 }  // namespace
 
 std::string show(const std::string& path) {
@@ -283,30 +326,14 @@ std::string show(const std::string& path) {
     for (const char* name : {"created_utc", "host", "code_version"})
       if (root.group("provenance").has(name))
         append(when, ", ", root.group("provenance").read_text(name));
-  page.line("made by", origin.identity.command.empty() ? "langer-" + origin.identity.stage
-                                                       : origin.identity.command);
+  page.line("made by", text_or(origin.identity.command, "langer-" + origin.identity.stage));
   if (!when.empty()) page.line("", when);
   page.line("content",
             fmt::format("{} (config {})", origin.content_id, origin.identity.config_hash));
   std::vector<std::string> inputs;
   for (const auto& [port, id] : origin.identity.inputs) inputs.push_back(port + " " + id);
   page.list("inputs", inputs);
-  if (origin.schema == mesh_schema.name)
-    show_mesh(page, read_mesh(path).mesh);
-  else if (origin.schema == material_schema.name)
-    show_material(page, path);
-  else if (origin.schema == solution_schema.name)
-    show_solution(page, path);
-  else if (origin.schema == curves_schema.name)
-    show_curves(page, path);
-  else if (origin.schema == sweep_schema.name)
-    show_sweep(page, root);
-  else if (origin.schema == sensitivity_schema.name)
-    show_sensitivity(page, root);
-  else {
-    page.line("datasets", "");
-    show_tree(page, root, "/");
-  }
+  show_parts(page, origin.schema, path, root);
   std::vector<std::vector<std::string>> rows;
   for (const Summary& s : read_summary(root)) rows.push_back({s.name, number(s.value), s.unit});
   page.table("summary", rows);
@@ -326,9 +353,11 @@ std::string show_summary(const std::string& path) {
   const Origin origin = read_origin(path);
   std::string s =
       fmt::format("{{\"schema\": \"{}\", \"content_id\": \"{}\"", origin.schema, origin.content_id);
-  for (const Summary& r : read_summary(path))
-    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit),
-                     std::isfinite(r.value) ? number_text(r.value) : "null");
+  for (const Summary& r : read_summary(path)) {
+    std::string value = "null";
+    if (std::isfinite(r.value)) value = number_text(r.value);
+    s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), value);
+  }
   return s + "}\n";
 }
 

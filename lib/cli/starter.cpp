@@ -16,6 +16,7 @@ namespace langer {
 
 namespace fs = std::filesystem;
 
+// The scenes in the order of the files. Files of the scene "common" belong to all.
 std::vector<std::string> starter_names() {
   std::vector<std::string> names;
   for (const StarterFile& f : starter_files)
@@ -26,7 +27,7 @@ std::vector<std::string> starter_names() {
 
 std::vector<std::string> write_starter(const std::string& scene, const std::string& folder) {
   const std::vector<std::string> known = starter_names();
-  if (std::find(known.begin(), known.end(), scene) == known.end()) {
+  if (std::ranges::find(known, scene) == known.end()) {
     const std::string near = nearest(scene, known);
     throw Failure(Exit::config, Error{{},
                                       "",
@@ -42,24 +43,18 @@ std::vector<std::string> write_starter(const std::string& scene, const std::stri
                                      "a new or an empty folder",
                                      "langer new SCENE FOLDER"});
   fs::create_directories(fs::path(folder) / "schema", ec);
-  if (!fs::is_directory(fs::path(folder) / "schema"))
-    throw Failure(Exit::input,
-                  Error{{folder},
-                        "",
-                        "this folder cannot be made" + (ec ? ": " + ec.message() : std::string()),
-                        "",
-                        ""});
+  if (!fs::is_directory(fs::path(folder) / "schema")) {
+    std::string found = "this folder cannot be made";
+    if (ec) found += ": " + ec.message();
+    throw Failure(Exit::input, Error{{folder}, "", found, "", ""});
+  }
   std::vector<std::string> written;
   for (const StarterFile& f : starter_files) {
     if (f.scene != scene && std::string(f.scene) != "common") continue;
     const std::string kind = fs::path(f.name).stem();
     const bool yaml = fs::path(f.name).extension() == ".yaml" && has_schema(kind);
-    std::string text;
-    if (yaml) {
-      text = schema_line(kind, "schema") + f.text;
-    } else {
-      text = std::string(f.text);
-    }
+    std::string text(f.text);
+    if (yaml) text = schema_line(kind, "schema") + text;
     write_text_file((fs::path(folder) / f.name).string(), text);
     if (yaml)
       write_text_file((fs::path(folder) / "schema" / schema_file(kind)).string(),

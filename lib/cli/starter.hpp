@@ -1,6 +1,6 @@
-// Starter projects: a pipeline and its configs with comments, a Makefile and, for editors, the
-// schemas. The files are those of share/new, kept in the program so that it finds them wherever it
-// is installed.
+// Starter projects (`langer new`): a pipeline and its configs with comments, a Makefile and, for
+// editors, the schemas. The files of share/new are compiled into the program, so that it has them
+// wherever it is installed.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace langer {
 
 std::vector<std::string> starter_names();  // "indentation", ...
 
-// Writes into a folder that is new or empty; throws Failure otherwise. Returns the names of the
-// files.
+// Writes a project into a folder that is new or empty; throws Failure otherwise. Returns the names
+// of the files.
 std::vector<std::string> write_starter(const std::string& scene, const std::string& folder);
 
 }  // namespace langer

@@ -1,6 +1,6 @@
-// What every program takes and gives, as one table: its --help, its man page and the shell's
-// completion come from it, and the argument parser refuses to know an option that the table lacks
-// (stages/common/arguments.cpp).
+// The options of every program in one table. --help, the man pages and the completion of the shell
+// are made from it. The argument parser refuses an option that the table lacks
+// (stages/common/arguments.cpp), so these pages are always complete.
 #pragma once
 
 #include <string>
@@ -12,12 +12,11 @@
 namespace langer {
 
 struct UsageOption {
-  std::string flags;  // "-o,--output", "--mesh", "CONFIG" (a place in the line)
+  std::string flags;  // "-o,--output", "--mesh", or "CONFIG" for a positional argument
   std::string value;  // "FILE", "" for a switch
   std::string says;
-  std::string
-      files;  // endings of the files it takes, separated by spaces: "h5 yaml"; for completion
-  std::vector<std::string> words;  // or the words it takes
+  std::string files;  // for completion: extensions of the files it takes, such as "h5 yaml"
+  std::vector<std::string> words;  // for completion: the words it takes
   bool required = false;
 };
 
@@ -38,13 +37,14 @@ Usage plan_usage();
 std::string help_text(const Usage& usage);
 extern const char* const exit_codes;  // one line
 
-// parts of these pages
+// Parts of these pages.
 std::vector<UsageOption> common_options();           // --quiet ... --version
 std::string option_text(const UsageOption& option);  // "-o, --output FILE"
-bool is_place(const UsageOption& option);            // a place in the line, not an option
+bool is_place(const UsageOption& option);            // a positional argument
 std::string synopsis(const Usage& usage);
+std::string usage_line(const Usage& usage);  // synopsis, or "langer COMMAND [options]"
 
-// manual.cpp: of all programs; knows every stage's config
+// In manual.cpp, which includes the configs of all stages:
 Usage usage_of(const StageSpec& stage);
 Usage langer_usage();                         // of `langer` as a whole
 const std::vector<Usage>& langer_commands();  // show, new, check, ...

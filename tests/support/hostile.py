@@ -407,7 +407,7 @@ run_row("metadata whose .part is a link", lambda run: link(run, "ro-crate-metada
 run_row("a script whose .part is a link", lambda run: link(run, "reproduce.part", "../../../victim.txt"), says="is a link to")
 run_row("a folder of inputs that is a link", lambda run: link(run, "inputs.d", "../../../home"), says="is a link to")
 run_row("a copy whose place is a link", lambda run: link(run, "inputs.d/up2/pull.csv", "../../../../../victim.txt"), says="is a link to")
-run_row("data outside of the root", lambda run: None, ("langer", "crate", "out/runs/p", "--root", "out/runs"), says="lies outside of the folder")
+run_row("data outside of the root", lambda run: None, ("langer", "crate", "out/runs/p", "--root", "out/runs"), says="is outside of the folder")
 
 
 def in_linked_folder(run):
