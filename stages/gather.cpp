@@ -220,6 +220,7 @@ std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& mem
   return inputs;
 }
 
+// Effects, spreads and differences of maps add columns to the table, so the file is written last.
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const GatherConfig& config = job.config;
   if (config.rows == GatherRows::parameters) return gather_parameters(job);

@@ -38,6 +38,7 @@ int print(const std::string& text) {
   return static_cast<int>(Exit::ok);
 }
 
+// The text of `langer show`, by its options.
 std::string file_text(const Given& given, const std::string& file) {
   if (given.config) return show_config(file);
   if (given.json) return show_summary(file);
@@ -75,6 +76,7 @@ int check_files(const Given& given) {
   return worst;
 }
 
+// `langer describe`: the reference of a kind of config, or the list of columns.
 int describe_kind(const Given& given) {
   std::string name = given.places[0];
   if (name == "columns") return print(columns_text());
@@ -85,6 +87,7 @@ int describe_kind(const Given& given) {
   return print(schema_text(name));
 }
 
+// `langer man`: the man page of a program.
 int manual(const Given& given) {
   std::vector<std::string> known;
   for (const Usage& u : all_usages()) {
@@ -98,6 +101,7 @@ int manual(const Given& given) {
                                     ""});
 }
 
+// `langer crate`: writes a crate, or compares two folders with --same-as.
 int crate(const Given& given) {
   const std::string& folder = given.places[0];
   if (!given.same_as.empty()) return print(same_results(folder, given.same_as) + "\n");
@@ -110,6 +114,7 @@ int crate(const Given& given) {
   return 0;
 }
 
+// `langer doctor`: exit code 3 if a needed program is missing.
 int doctor() {
   const std::vector<Finding> findings = examine();
   put_out(doctor_text(findings));

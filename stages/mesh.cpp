@@ -32,6 +32,7 @@ void check_exports(const Job<MeshConfig>& job) {
   }
 }
 
+// Makes the mesh, prints its quality and sets, and exports it to other formats if the config asks.
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
   check_exports(job);
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);

@@ -33,6 +33,7 @@ struct Solution {
   SolutionReader reader;
   mutable Body body;  // with the branch stresses of the row that was read last
 
+  // The record of a row; the unloaded state is not in the file, so it is made here.
   StepRecord record(int row) const {
     branches_.go_to(row);
     if (row > 0) return reader.step(row - 1);
@@ -65,6 +66,7 @@ struct Solution {
 
 using Columns = std::vector<Column>;
 
+// Errors of the config that were found with the solution at hand, all at once.
 [[noreturn]] void refuse(const Job<PostConfig>& job, const std::vector<Complaint>& complaints) {
   std::vector<Error> errors;
   for (const Complaint& c : complaints)
@@ -110,6 +112,7 @@ bool any_quantity(const std::vector<Measure>& measures, bool (*property)(const Q
   return false;
 }
 
+// Properties of quantities that cost extra work.
 bool is_contact_area(const QuantityLine& line) { return is_of_contact_surface(line.word); }
 bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
@@ -161,6 +164,7 @@ const Column& column_named(const Table& table, const std::string& name) {
   return *std::ranges::find(table.columns, name, &Column::name);
 }
 
+// The unit of a slope: of force over displacement it is N/mm.
 std::string quotient_unit(const std::string& numerator, const std::string& denominator) {
   if (numerator == denominator) return "-";
   if (denominator == "-") return numerator;
@@ -359,6 +363,7 @@ void add_points(const Job<PostConfig>& job, const std::string& name, const Figur
   plot.lines.insert(plot.lines.begin(), line);
 }
 
+// The x-y figures of the config, drawn from the CSV table.
 void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& columns,
                  const std::string& csv_file, int rows, Pictures& pictures) {
   for (const auto& [name, figure] : job.config.figures) {
@@ -369,6 +374,7 @@ void draw_curves(const Job<PostConfig>& job, const std::vector<ColumnChoice>& co
   }
 }
 
+// Maps of the surface, each with a CSV table of its own.
 void draw_maps(const Job<PostConfig>& job, const std::vector<SurfaceMap>& maps,
                Pictures& pictures) {
   for (const SurfaceMap& map : maps) {
@@ -399,6 +405,7 @@ void draw_renders(const Job<PostConfig>& job, const Solution& solution, const Re
     job.say("not drawn: the indenter \"{}\", whose triangles are not in the solution", name);
 }
 
+// The table of all states comes first: columns, curves, snapshots and pictures refer to its rows.
 std::vector<Summary> post(const Job<PostConfig>& job) {
   PostConfig config = job.config;
   const Solution solution(job.input("solution"));
@@ -463,6 +470,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   return curves.summary;
 }
 
+// Names of the scripts and of the series, by which the side folder is chosen.
 std::vector<std::string> side_files(const PostConfig& config) {
   std::vector<std::string> names;
   for (const auto& [name, figure] : config.figures) names.push_back(name + ".gp");

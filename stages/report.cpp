@@ -22,6 +22,7 @@ std::string folder_title(const std::string& output) {
 
 bool is_warning(const report::Verdict& v) { return v.level == report::Level::warning; }
 
+// Each kind of file adds its part to the page; the order of the calls is the order on the page.
 std::vector<Summary> report_on(const Job<ReportConfig>& job) {
   using namespace report;
   if (job.inputs.empty())

@@ -10,6 +10,8 @@
 namespace langer {
 namespace {
 
+// A sample may lack stiffness in the undeformed state (a shear modulus of 0), and is then refused:
+// no body can be made of it.
 std::vector<Summary> sample(const Job<SampleConfig>& job) {
   const std::string file = job.input("material");
   const MaterialFile fitted = read_material(file);

@@ -103,6 +103,7 @@ void add_one_at_a_time(const Job<SensitivityConfig>& job, const CurveMaker& stre
                  "narrower bounds or a smaller strain.to"});
 }
 
+// One parameter at a time is always computed; Morris and Sobol' if the config asks for them.
 std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   const SensitivityConfig& config = job.config;
   Material material = turned(material_from(job.input("material")), config.turn);

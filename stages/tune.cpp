@@ -57,7 +57,8 @@ Levels levels_of(const Job<TuneConfig>& job) {
     const std::optional<Cost> cost = read_origin(files[i]).identity.solution_cost;
     if (!cost)
       job.say(
-          "{}: its solution was made in several runs, or by an older version: its cost is not known",
+          "{}: its solution was made in several runs, or by an older version: its cost is not "
+          "known",
           member.path);
     levels.members.push_back(std::move(member));
     levels.cost.push_back(cost.value_or(Cost{NAN, NAN, NAN}));
@@ -186,6 +187,7 @@ std::string choose(const Job<TuneConfig>& job, const std::string& quantity, cons
   return choice;
 }
 
+// Errors in percent. A level that the reference is taken from has no error of its own.
 LevelErrors errors_of(const std::vector<double>& values, const std::vector<double>& cpu,
                       const Reference& reference) {
   const double right = reference.limit.value;

@@ -63,6 +63,8 @@ std::optional<std::string> kind_by_keys(const Tree& tree) {
   return best;
 }
 
+// Doubts as indented lines below the verdict on a file. They do not change the exit code: the data
+// may be unusual and right.
 std::string warnings(const std::vector<std::string>& doubts) {
   std::string lines;
   for (const std::string& doubt : doubts) lines += "\n  warning: " + doubt;
@@ -71,6 +73,8 @@ std::string warnings(const std::vector<std::string>& doubts) {
 
 }  // namespace
 
+// The schema line is preferred, because it is the author's own statement; keys may fit several
+// kinds.
 std::string kind_of(const std::string& path) {
   if (const auto kind = kind_by_schema_line(path)) return *kind;
   const Tree tree = load_yaml(path);
@@ -82,6 +86,8 @@ std::string kind_of(const std::string& path) {
                                     "use --as with one of " + list_words(schema_kinds())});
 }
 
+// A pipeline is planned without writing, so all configs that it names are checked, too. Of a single
+// config the measured data are read as well, which a plan does not do.
 std::string check_file(const std::string& path, std::string kind) {
   if (kind.empty()) {
     require_file(path);

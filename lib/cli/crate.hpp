@@ -12,6 +12,7 @@
 
 namespace langer {
 
+// The texts of a crate that no file of the run contains.
 struct CrateWords {
   // By default the title is that of the pipeline; author and license are not stated.
   std::string title, author, license;
@@ -19,6 +20,7 @@ struct CrateWords {
   std::string root = "";
 };
 
+// The size of a crate, for the message of langer crate.
 struct CrateReport {
   std::size_t files = 0, actions = 0;
   std::vector<std::string> copied;  // places in the crate of files from outside of the folder

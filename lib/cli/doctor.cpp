@@ -66,6 +66,7 @@ constexpr Tool tools[]{
     {"paraview", "", "snapshot_*.hdf and series.pvd open in ParaView on any machine", "paraview"},
 };
 
+// Looks for a program and asks for its version.
 Finding tool(const Tool& t) {
   const std::string where = on_path(t.program);
   std::string install;
@@ -127,6 +128,8 @@ Finding python_package(const char* name, const char* debian, const char* without
   return {name, true, false, version};
 }
 
+// Processors, memory and free disk space. Large scenes need all three, so they are part of a report
+// about a problem.
 Finding machine() {
   struct statvfs disk {};
   double free = 0;
@@ -142,6 +145,7 @@ Finding machine() {
 
 }  // namespace
 
+// Packages of Python are looked for only if there is a Python.
 std::vector<Finding> examine() {
   const fs::path bin = fs::canonical("/proc/self/exe").parent_path();
   std::vector<Finding> findings{
@@ -167,6 +171,7 @@ std::vector<Finding> examine() {
   return findings;
 }
 
+// A table with one line for each finding. NO in capitals is a needed one.
 std::string doctor_text(const std::vector<Finding>& findings) {
   std::size_t width = 0;
   for (const Finding& f : findings) width = std::max(width, f.what.size());

@@ -7,6 +7,7 @@
 
 namespace langer {
 
+// One program or library.
 struct Finding {
   std::string what;                    // "gnuplot"
   bool there = false, needed = false;  // needed: without it nothing runs

@@ -139,6 +139,8 @@ std::string failure_text(const StepTimes& t) {
 
 }  // namespace
 
+// A rule of langer-plan is one line, "target: prerequisites $(if $(STRICT)...". All other lines are
+// skipped. The file is read as data and never given to make.
 std::vector<MadeBy> rules_of(const std::string& folder) {
   const fs::path path = fs::path(folder) / "Makefile";
   std::ifstream file;
@@ -168,6 +170,7 @@ std::vector<MadeBy> rules_of(const std::string& folder) {
   return rules;
 }
 
+// A step without a log was not run.
 std::vector<StepTimes> times_of(const std::string& folder) {
   std::vector<StepTimes> times;
   for (const MadeBy& rule : rules_of(folder)) {
@@ -186,6 +189,7 @@ std::vector<StepTimes> times_of(const std::string& folder) {
   return times;
 }
 
+// A table of all steps, a line of totals, and the logs of failed steps.
 std::string times_text(const std::vector<StepTimes>& times, bool failed_only) {
   std::size_t width = 4;
   for (const StepTimes& t : times) width = std::max(width, t.step.size());
@@ -229,6 +233,7 @@ class Explanation {
     for (const MadeBy& rule : rules) rules_[rule.target] = &rule;
   }
 
+  // The reasons of a step; empty if it is up to date.
   const StepReasons& of(const MadeBy& rule) {
     const auto [found, is_new] = steps_.try_emplace(rule.target);
     StepReasons& step = found->second;
@@ -283,6 +288,7 @@ std::vector<StepReasons> explain(const std::string& folder) {
   return steps;
 }
 
+// Only the steps that would run, with their reasons indented.
 std::string explain_text(const std::vector<StepReasons>& steps) {
   std::string text;
   std::size_t run = 0;

@@ -18,6 +18,7 @@ struct MadeBy {
 // Failure(input) if there is none.
 std::vector<MadeBy> rules_of(const std::string& folder);
 
+// Time and memory of one step, from its log.
 struct StepTimes {
   std::string step;  // folder and output without ending: alpha_030/solve/solution
   std::string log;
@@ -29,6 +30,7 @@ struct StepTimes {
 std::vector<StepTimes> times_of(const std::string& folder);
 std::string times_text(const std::vector<StepTimes>& times, bool failed_only);
 
+// Why make would run a step again.
 struct StepReasons {
   std::string target;
   std::vector<std::string> reasons;  // empty: up to date

@@ -12,6 +12,7 @@
 
 namespace langer {
 
+// All kinds of configs, and pipelines.
 std::vector<std::string> schema_kinds() {
   std::vector<std::string> kinds = config_kind_names();
   kinds.push_back("pipeline");
@@ -23,6 +24,7 @@ bool has_schema(const std::string& kind) {
   return std::ranges::find(known, kind) != known.end();
 }
 
+// An unknown kind is an error that lists the known ones; callers rely on that.
 std::string schema_text(const std::string& kind) {
   if (kind == "pipeline") return pipeline::pipeline_schema();
   if (const ConfigKind* known = find_config_kind(kind))

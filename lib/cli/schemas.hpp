@@ -6,6 +6,7 @@
 
 namespace langer {
 
+// Names of the kinds: "mesh", "solve", ..., "material", "pipeline".
 std::vector<std::string> schema_kinds();
 bool has_schema(const std::string& kind);
 std::string schema_text(const std::string& kind);  // throws Failure(config) with the known kinds

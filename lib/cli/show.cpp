@@ -22,6 +22,7 @@ namespace langer {
 
 namespace {
 
+// A file size with the unit that keeps it below 1000.
 std::string size_words(std::uintmax_t bytes) {
   const auto b = static_cast<double>(bytes);
   if (b < 1e3) return fmt::format("{} bytes", bytes);
@@ -36,6 +37,7 @@ class Page {
   void line(const std::string& key, const std::string& says) {
     text += fmt::format("{:<14}{}\n", key, says);
   }
+  // A list in lines of at most 90 columns; the key is in front of the first one.
   void list(const std::string& key, const std::vector<std::string>& items) {
     std::string row;
     std::string heading = key;
@@ -49,6 +51,7 @@ class Page {
     }
     line(heading, text_or(row, "none"));
   }
+  // Columns as wide as their widest cell. The first row is the head.
   void table(const std::string& heading, const std::vector<std::vector<std::string>>& rows) {
     if (rows.empty()) return;
     std::vector<std::size_t> width;
@@ -67,6 +70,7 @@ class Page {
   }
 };
 
+// Six digits are enough to recognise a value; the file has all of them.
 std::string number(double x) { return fmt::format("{:.6g}", x); }
 
 // A number, or words where it is not finite.
@@ -129,6 +133,7 @@ void show_model(Page& page, const Material& material) {
   for (const std::string& line : split(to_yaml(material), '\n')) page.text += "  " + line + "\n";
 }
 
+// The material model, and the parameters and tests of a fitted one.
 void show_material(Page& page, const std::string& path) {
   const MaterialFile file = read_material(path);
   show_model(page, file.material);
@@ -181,6 +186,7 @@ void show_steps(Page& page, const SolutionReader& file) {
   page.table(fmt::format("{} steps", file.n_steps()), rows);
 }
 
+// Mesh, contacts, materials and steps of a solution.
 void show_solution(Page& page, const std::string& path) {
   const SolutionReader file(path);
   const SolutionHeader& header = file.header();
@@ -220,6 +226,7 @@ std::vector<std::string> column_row(const Column& c) {
   return row;
 }
 
+// The range of each column; the values themselves are in the CSV file.
 void show_curves(Page& page, const std::string& path) {
   const Curves curves = read_curves(path).curves;
   std::vector<std::vector<std::string>> rows{
@@ -261,6 +268,7 @@ std::vector<std::string> sweep_column(const h5::Group& group, const std::string&
   return column;
 }
 
+// A row for each member. Columns are the axes, then the quantities.
 void show_sweep(Page& page, const h5::Group& root) {
   const std::string members = root.read_text("members");
   std::vector<std::vector<std::string>> rows{{}};
@@ -280,6 +288,7 @@ void show_sweep(Page& page, const h5::Group& root) {
   if (root.has("effects")) page.list("effects of", root.group("effects").groups());
 }
 
+// The ranked parameters with their bounds. The effects themselves are in the CSV files.
 void show_sensitivity(Page& page, const h5::Group& root) {
   const h5::Group parameters = root.group("parameters");
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "lower", "upper", "unit"}};
@@ -314,6 +323,8 @@ void show_parts(Page& page, const std::string& schema, const std::string& path,
 
 }  // namespace
 
+// Every file begins with its origin and ends with its summary; between them are the parts of its
+// kind.
 std::string show(const std::string& path) {
   const Origin origin = read_origin(path);
   Page page;
@@ -340,6 +351,7 @@ std::string show(const std::string& path) {
   return page.text;
 }
 
+// The config in a file is the effective one: with it the run can be repeated.
 std::string show_config(const std::string& path) {
   const Origin origin = read_origin(path);
   if (origin.identity.config.empty())

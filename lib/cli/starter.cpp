@@ -25,6 +25,8 @@ std::vector<std::string> starter_names() {
   return names;
 }
 
+// Files of another person's project are never replaced, so the folder must be new or empty. Configs
+// get a line that names their schema.
 std::vector<std::string> write_starter(const std::string& scene, const std::string& folder) {
   const std::vector<std::string> known = starter_names();
   if (std::ranges::find(known, scene) == known.end()) {

@@ -10,8 +10,8 @@
 namespace langer {
 
 const char* const exit_codes =
-    "0 done, 1 a bug, 2 config or arguments, 3 a file, its disk or memory, 4 no convergence, 5 less "
-    "accurate than asked for, 128 + n stopped by signal n";
+    "0 done, 1 a bug, 2 config or arguments, 3 a file, its disk or memory, 4 no convergence, "
+    "5 less accurate than asked for, 128 + n stopped by signal n";
 
 namespace {
 
@@ -30,9 +30,11 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
 
 }  // namespace
 
+// An option as it is shown in help: "-o, --output FILE".
 std::string option_text(const UsageOption& o) {
   std::string s = o.flags;
-  if (const std::size_t comma = s.find(','); comma != std::string::npos) s.insert(comma + 1, " ");
+  const std::size_t comma = s.find(',');
+  if (comma != std::string::npos) s.insert(comma + 1, " ");
   if (o.value.empty()) return s;
   return s + " " + o.value;
 }
@@ -57,6 +59,7 @@ std::string synopsis(const Usage& u) {
   return s;
 }
 
+// Options that all programs have.
 std::vector<UsageOption> common_options() {
   return {{"--quiet", "", "print warnings and errors only", "", {}},
           {"-v,--verbose", "", "print more: inputs, every iteration, time and memory", "", {}},
@@ -95,6 +98,7 @@ std::vector<const Port*> example_inputs(const StageSpec& stage) {
   return shown;
 }
 
+// A command line with the inputs of a stage under their default names.
 std::string stage_example(const StageSpec& stage) {
   const std::string name = stage.name;
   std::string s = "langer-" + name + " " + name + ".yaml";
@@ -123,6 +127,7 @@ UsageOption port_option(const Port& p) {
 
 }  // namespace
 
+// An option by one of its names, such as "-o"; nullptr if there is none.
 const UsageOption* Usage::find(const std::string& flag) const {
   for (const UsageOption& o : options)
     for (const std::string& f : split(o.flags, ','))
@@ -130,6 +135,7 @@ const UsageOption* Usage::find(const std::string& flag) const {
   return nullptr;
 }
 
+// Ports become options; --dry-run and --export depend on the stage.
 Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::string reference) {
   Usage u{std::string("langer-") + stage.name, stage.sentence, {}, {}, "", "", ""};
   u.options.push_back({"CONFIG", "", "YAML file with the keys below", "yaml yml", {}, true});
@@ -162,6 +168,7 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
   return u;
 }
 
+// langer-plan is not a stage: it has a pipeline instead of a config.
 Usage plan_usage() {
   Usage u{"langer-plan", "Turns a pipeline into a Makefile.", {}, {}, "", "", ""};
   u.options = {

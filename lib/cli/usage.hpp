@@ -11,6 +11,7 @@
 
 namespace langer {
 
+// One option, or one positional argument.
 struct UsageOption {
   std::string flags;  // "-o,--output", "--mesh", or "CONFIG" for a positional argument
   std::string value;  // "FILE", "" for a switch
@@ -20,6 +21,7 @@ struct UsageOption {
   bool required = false;
 };
 
+// The page of one program or command.
 struct Usage {
   std::string program;   // "langer-solve", "langer show"
   std::string sentence;  // first line

@@ -226,6 +226,7 @@ void add_model_facts(Answer& answer, const SolutionReader& solution, const Tree&
 
 }  // namespace
 
+// The numbers of a summary are named force_limit, force_error_cells, ...
 KnownError known_error(const std::vector<Summary>& summary, const std::string& name,
                        double fallback) {
   const auto value = [&](const std::string& wanted) {
@@ -240,6 +241,7 @@ KnownError known_error(const std::vector<Summary>& summary, const std::string& n
   return {number, 100 * value(name + "_error") / std::abs(number)};
 }
 
+// A solution without contact nodes is described by its loads.
 Answer answer_of(const SolutionReader& solution, const std::string& label) {
   Answer answer;
   const SolutionHeader& header = solution.header();

@@ -15,6 +15,7 @@
 
 namespace langer::report {
 
+// One sentence, and facts in a table below it.
 struct Answer {
   struct Fact {
     std::string name, text;

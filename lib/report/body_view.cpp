@@ -325,6 +325,9 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
 
 }  // namespace
 
+// The number of states and the nodes are chosen first, within the budget that the indenters leave.
+// Then all states are evaluated, and packed with one scale for displacements and one for each
+// field.
 Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path,
                const ReportConfig& config, double budget) {
   const SolutionHeader& header = solution.header();

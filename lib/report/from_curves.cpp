@@ -23,6 +23,7 @@ std::string stem(const std::string& name) {
   return name;
 }
 
+// A curve by its name; nullptr if the file does not have it.
 const NamedCurve* find_curve(const Curves& curves, const std::string& name) {
   const auto found = std::ranges::find(curves.curves, name, &NamedCurve::name);
   if (found == curves.curves.end()) return nullptr;

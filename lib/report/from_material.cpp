@@ -86,6 +86,7 @@ double scatter(const std::vector<double>& x, const std::vector<double>& y) {
   return std::sqrt(sum / n);
 }
 
+// The root mean square of the difference of two lists of equal length.
 double root_mean_square(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -117,8 +118,10 @@ std::string misfit_words(const FittedTest& test) {
 // Compares the misfit of each test with its noise.
 void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
   std::string missed;
-  for (const FittedTest& test : fit.tests)
-    if (const std::string text = misfit_words(test); !text.empty()) append(missed, "; ", text);
+  for (const FittedTest& test : fit.tests) {
+    const std::string misfit = misfit_words(test);
+    if (!misfit.empty()) append(missed, "; ", misfit);
+  }
   for (const FittedCurve& curve : fit.curves) {
     const double misfit = root_mean_square(curve.measured, curve.model);
     if (!(misfit > acceptable_misfit * curve.standard_deviation)) continue;
@@ -142,6 +145,7 @@ void judge_fit(ReportPage& page, const Source& source, const FitRecord& fit) {
                    missed, errors)});
 }
 
+// A matrix as rows, as the page stores it.
 std::vector<std::vector<double>> rows_of(const MatX& m) {
   std::vector<std::vector<double>> rows;
   for (Eigen::Index i = 0; i < m.rows(); ++i) {

@@ -120,6 +120,7 @@ void judge_errors(const AddVerdict& add, const std::vector<Summary>& summary, do
         "the discretisation error is not known: set `estimate` or `accuracy` in the solve config");
 }
 
+// A quantity of the summary; 0 if the solution does not have it.
 double summary_value(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return 0;

@@ -16,10 +16,12 @@
 
 namespace langer::report {
 
+// A value of JSON as its text.
 struct Json {
   std::string text = "null";
 };
 
+// Nine digits are more than a screen shows, and keep the page small.
 inline Json number(double x) {
   if (!std::isfinite(x)) return {"null"};
   return {fmt::format("{:.9g}", x)};
@@ -36,6 +38,7 @@ Json list(const auto& range, auto&& each) {
 }
 inline Json numbers(const std::vector<double>& values) { return list(values, number); }
 
+// A map from keys to values, in the given order.
 inline Json object(const std::vector<std::pair<const char*, Json>>& parts) {
   std::string text;
   for (const auto& [key, value] : parts) append(text, ",", words(key).text + ":" + value.text);

@@ -7,6 +7,7 @@
 
 namespace langer::report {
 
+// Labels of quantities are written for gnuplot, which sets sigma_{xx} as a subscript.
 std::string plain_label(const char* label) {
   std::string s = label;
   std::erase(s, '{');

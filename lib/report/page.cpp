@@ -8,6 +8,7 @@ namespace langer::report {
 
 namespace {
 
+// The class of a verdict in style.css.
 const char* level_word(Level level) {
   if (level == Level::good) return "good";
   if (level == Level::note) return "note";
@@ -81,6 +82,7 @@ Json polar(const Polar& p) {
                  {"residuals", list(p.residuals, residual)}});
 }
 
+// All data of a page as one object. Its keys are those of main.js.
 Json data_of(const ReportPage& page) {
   const auto verdict = [](const Verdict& v) {
     return object(
@@ -134,6 +136,7 @@ Json data_of(const ReportPage& page) {
 
 bool has_three() { return !embedded::three_js.empty(); }
 
+// The size of a page with three.js but without results; the rest of the allowed size is for bodies.
 std::size_t bytes_without_data() {
   using namespace embedded;
   return index_html.size() + style_css.size() + three_js.size() + orbit_js.size() +

@@ -21,13 +21,16 @@
 
 namespace langer::report {
 
+// good: checked and right; note: worth knowing; warning: the result may be wrong.
 enum class Level { good, note, warning };
 
+// One judgement of a result, in a sentence.
 struct Verdict {
   Level level = Level::note;
   std::string of, text;  // of: the file or member that it concerns
 };
 
+// One curve of a chart.
 struct Series {
   std::string name;
   std::vector<double> x, y;
@@ -35,6 +38,7 @@ struct Series {
   std::vector<double> error = {};  // half width of a band about the line; empty: none
 };
 
+// Curves over a common x. Charts of one group are shown together.
 struct Chart {
   std::string group, title, x_label, x_unit, y_label, y_unit;
   std::vector<Series> series;
@@ -46,6 +50,7 @@ struct Chart {
   std::vector<Mark> marks = {};  // lines that the curves are compared with
 };
 
+// A square matrix of correlations.
 struct Matrix {
   std::string title;
   std::vector<std::string> names;           // of rows and columns
@@ -60,6 +65,7 @@ struct PlaneMap {
   double middle = 1;                        // value of a medium colour
 };
 
+// The head of a column, and a cell, which is a number or a text.
 struct TableColumn {
   std::string name, unit;
 };
@@ -70,6 +76,7 @@ struct ReportTable {
   std::vector<std::vector<Cell>> rows;
 };
 
+// Results over an angle, with the symmetries that they should have.
 struct Polar {
   std::string title, axis, unit;
   std::vector<double> angle;   // [deg]
@@ -77,11 +84,13 @@ struct Polar {
   std::vector<SymmetryResidual> residuals;
 };
 
+// The provenance of one file.
 struct FileOrigin {
   std::string label, stage, made, host, version, libraries, command, content, config;
   double wall = 0, cpu = 0;  // [s]; NaN if the file does not contain them
 };
 
+// The whole page, in the order in which it is shown.
 struct ReportPage {
   std::string title;
   std::vector<Answer> answers;
@@ -95,6 +104,7 @@ struct ReportPage {
   std::vector<FileOrigin> origins;
 };
 
+// The page as text of HTML.
 std::string html(const ReportPage& page);
 bool has_three();  // this build has three.js inside; without it a page has no view of the body
 std::size_t bytes_without_data();

@@ -11,6 +11,7 @@
 
 namespace langer {
 
+// The config of report. Every key has a default, so a report needs no config file.
 struct ReportConfig {
   std::string title;
   std::vector<Quantity> shown{quantity("von_mises"), quantity("pressure"), quantity("sigma_1"),

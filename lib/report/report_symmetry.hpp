@@ -11,6 +11,7 @@
 
 namespace langer::report {
 
+// How far a result is from one symmetry.
 struct SymmetryResidual {
   std::string says;  // the equation
   int pairs = 0;     // of angles compared

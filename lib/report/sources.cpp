@@ -119,6 +119,7 @@ void add_summaries(ReportPage& page, const std::string& title, const std::vector
   page.tables.push_back(std::move(table));
 }
 
+// Files of old versions lack some of these entries; they are then empty.
 void add_origin(ReportPage& page, const Source& source) {
   const Origin origin = read_origin(source.path);
   const h5::File file = h5::File::open(source.path);

@@ -10,6 +10,7 @@
 
 namespace langer::report {
 
+// One file of a report.
 struct Source {
   std::string path, label;
   double angle = 0;  // the number in the label, which differs between members of a sweep
@@ -20,6 +21,7 @@ struct Source {
 // single file is labelled by its own folder.
 std::vector<Source> labelled(const std::vector<std::string>& paths);
 
+// Each adds the tables, charts and verdicts of one kind of file to the page.
 void add_solutions(ReportPage& page, const std::vector<Source>& sources,
                    const ReportConfig& config);
 void add_curves(ReportPage& page, const std::vector<Source>& sources);

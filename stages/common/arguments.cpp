@@ -13,6 +13,7 @@
 
 namespace langer {
 
+// Hides CLI11 from the header.
 struct Arguments::Parser {
   explicit Parser(std::string program) : app("", std::move(program)) {
     app.set_help_flag("-h,--help");
@@ -45,6 +46,7 @@ void Arguments::version() {
   parser_->app.set_version_flag("--version", version_line(parser_->app.get_name()));
 }
 
+// CLI11 answers --help only if nothing else is wrong, so the options are searched for it first.
 bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
   CLI::App& app = parser_->app;
   std::vector<std::string> known;

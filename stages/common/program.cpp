@@ -31,6 +31,7 @@
 
 namespace langer {
 
+// Ranks other than the first print nothing.
 void put_out(const std::string& text) {
   if (said::silent) return;
   errno = 0;
@@ -118,6 +119,7 @@ void print_rank_error(const char* reason) {
   _exit(code);
 }
 
+// Lack of memory counts as a problem of the input: a smaller scene works.
 int report_no_memory(const std::string& program, const char* detail) {
   say_line(
       "{}: out of memory{}\n  hint: fewer elements, fewer threads, or a higher limit (ulimit -v)",
@@ -154,6 +156,7 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
 
 }  // namespace
 
+// All programs pass through here, also when they fail.
 int guarded(const std::string& program, const std::function<int()>& body) {
   said::silent = launched().rank > 0;
   if (said::silent && program != shared_by_ranks) _exit(0);

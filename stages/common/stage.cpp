@@ -75,6 +75,7 @@ struct CommandLine {
   std::vector<std::string> settings;
 };
 
+// The options of a stage: its ports, and those that all stages have.
 void add_options(Arguments& options, const StageSpec& spec, Task& task, CommandLine& given) {
   options.text("config", given.config_file, true);
   for (const Port& port : spec.inputs) {
@@ -193,6 +194,7 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& log
 
 }  // namespace
 
+// Everything that may throw runs inside of guarded().
 int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own) {
   const StageSpec& spec = *find_stage(name);
   const ConfigKind& kind = *find_config_kind(name);

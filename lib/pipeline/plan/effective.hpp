@@ -16,6 +16,7 @@
 
 namespace langer {
 
+// A config that was read and checked, as a plan needs it.
 struct Effective {
   std::string text;  // canonical; paths of input files are relative to the folder given
   struct File {
@@ -32,6 +33,7 @@ struct Effective {
   SceneNames names = {};
 };
 
+// The functions of one kind of config, without its C++ type.
 struct ConfigKind {
   Effective (*check)(Tree config, const std::string& folder);  // throws Failure(config)
   std::string (*reference)();

@@ -40,6 +40,8 @@ class Expansion {
  public:
   Expansion(const Pipeline& pipeline, const ReadYaml& read) : pipeline_(pipeline), read_(read) {}
 
+  // Each part needs the one before it without errors: unknown nodes would crash the search, wrong
+  // kinds of files would give misleading messages later.
   std::vector<Step> steps() {
     gather_axes();
     for (const Node& n : pipeline_.nodes) visit(n);
@@ -169,6 +171,7 @@ class Expansion {
       f_.say(s.place, key, "found " + label, "one of " + list_words(labels));
   }
 
+  // The position of a label that check_member() has found to exist.
   static std::size_t index_of(const Axis& axis, const std::string& label) {
     std::size_t i = 0;
     while (axis.points[i].label != label) ++i;
@@ -254,6 +257,7 @@ class Expansion {
     f_.errors.push_back(e);
   }
 
+  // One step for each combination of the points of the node's axes.
   void add_steps(const Node& n) {
     for (const Point& at : points(axes_of_[n.name])) {
       Step step{n.name, n.stage, member(axes_of_[n.name], at) + n.name, {}, {}, true};
@@ -329,12 +333,14 @@ class Expansion {
 
 }  // namespace
 
+// Numbers in exponential notation are not padded: their text would not sort anyway.
 std::string member_folder(const Axis& axis, std::size_t point) {
   const std::string& label = axis.points[point].label;
   if (!axis.numbers || label.find('e') != std::string::npos) return axis.name + "_" + label;
   std::size_t width = 3;
   for (const AxisPoint& p : axis.points) width = std::max(width, integer_digits(p.label));
-  const std::string sign = label[0] == '-' ? "-" : "";
+  std::string sign;
+  if (label[0] == '-') sign = "-";
   return axis.name + "_" + sign + std::string(width - integer_digits(label), '0') +
          label.substr(sign.size());
 }

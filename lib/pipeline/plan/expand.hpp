@@ -18,6 +18,7 @@
 
 namespace langer::pipeline {
 
+// One input file of a step.
 struct StepInput {
   std::string port;
   // Relative to the run's folder if a step makes it, otherwise as written in the pipeline.
@@ -26,6 +27,7 @@ struct StepInput {
   Place place;
 };
 
+// One run of a program: a node for one member of the sweep.
 struct Step {
   std::string node;
   const StageSpec* stage = nullptr;

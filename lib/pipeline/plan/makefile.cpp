@@ -6,6 +6,8 @@
 
 namespace langer::pipeline {
 
+// One rule for each step. The config is a prerequisite, and langer-plan rewrites it only if its
+// text changes, so make finds changed values by the times of files alone.
 std::string makefile_text(const std::string& pipeline_file, const std::string& bin,
                           const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);

@@ -10,6 +10,7 @@
 
 namespace langer::pipeline {
 
+// How one output file is made.
 struct Rule {
   std::string target;
   std::vector<std::string> prerequisites;

@@ -98,6 +98,7 @@ std::optional<Error> error_in_material(const NameReference& a, const SceneNames&
 
 }  // namespace
 
+// The names of a mesh that exists. Empty sets do not count: nothing can be supported by them.
 MeshNames names_of(const Mesh& mesh) {
   MeshNames names;
   for (const auto& [name, nodes] : mesh.node_sets) {
@@ -128,12 +129,15 @@ SceneNames names_in(const MeshConfig& config) {
   return names;
 }
 
+// A material defines the number of its fibre families only.
 SceneNames names_in(const Material& material) {
   SceneNames names;
   names.families = material.fibres.size();
   return names;
 }
 
+// A solve config refers to sets and bodies of the mesh and to families of the material. It defines
+// these names for the post configs that read its solution.
 SceneNames names_in(const SolveConfig& config, const FindPlace& where) {
   SceneNames names;
   if (config.mesh) names.mesh = names_in(*config.mesh).mesh;
@@ -161,6 +165,7 @@ SceneNames names_in(const SolveConfig& config, const FindPlace& where) {
   return names;
 }
 
+// A post config only refers to names.
 SceneNames names_in(const PostConfig& config, const FindPlace& where) {
   SceneNames names;
   add_columns(names.references, config.columns, "columns", where);
@@ -176,6 +181,7 @@ SceneNames names_in(const PostConfig& config, const FindPlace& where) {
   return names;
 }
 
+// A reference to a part that is not known from the configs alone is not checked here.
 std::vector<Error> unknown_names(const SceneNames& names) {
   std::vector<Error> errors;
   for (const NameReference& a : names.references) {

@@ -22,6 +22,7 @@ struct MeshConfig;
 struct SolveConfig;
 struct PostConfig;
 
+// The names that a mesh defines.
 struct MeshNames {
   std::vector<std::string> sets, points, bodies;  // points are sets, too
 };
@@ -49,6 +50,8 @@ struct SceneNames {
 };
 
 using FindPlace = std::function<Place(const std::string& key)>;
+// The names of a mesh, of a config that makes one, of a material, and of the configs that use them.
+// `where`: the place of a key, for messages.
 MeshNames names_of(const Mesh& mesh);
 SceneNames names_in(const MeshConfig& config);
 SceneNames names_in(const Material& material);

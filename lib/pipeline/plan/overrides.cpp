@@ -12,12 +12,14 @@ namespace langer::pipeline {
 
 namespace {
 
+// An error of an option has no line of a file: its place is the option itself.
 [[noreturn]] void refuse(const char* option, std::string found, std::string expected,
                          std::string hint = "") {
   throw Failure(Exit::config,
                 Error{{option, 0, 0}, "", std::move(found), std::move(expected), std::move(hint)});
 }
 
+// A typed value was parsed like a file, so its lines would point nowhere.
 void remove_lines(Tree& tree) {
   tree.place.line = 0;
   tree.place.column = 0;
@@ -31,6 +33,8 @@ struct Typed {
   Tree value;
 };
 
+// Splits an option at the first "=", the ":" before it and the first "." of the node's key. The
+// value may contain any of these characters.
 Typed typed(const char* option, const std::string& text, const char* example) {
   Typed t;
   const std::size_t equals = text.find('=');
@@ -52,6 +56,7 @@ Typed typed(const char* option, const std::string& text, const char* example) {
   return t;
 }
 
+// The value of a key that may be changed; nullptr if the map does not have it.
 Tree* child(Tree& tree, const std::string& key) { return const_cast<Tree*>(tree.find(key)); }
 
 // The value of a key of a map; an empty one is added if the map does not have the key. `like` has
@@ -115,6 +120,8 @@ Tree typed_value(const std::string& text, const char* option) {
   return value;
 }
 
+// A key that the pipeline itself varies cannot be set: the setting would have no effect. It can get
+// other values by --sweep.
 void apply(const Overrides& overrides, Tree& pipeline) {
   for (const std::string& setting : overrides.settings) {
     Typed t = typed("--set", setting, "solve.friction=0.2");

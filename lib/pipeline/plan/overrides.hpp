@@ -14,6 +14,7 @@
 
 namespace langer::pipeline {
 
+// The texts after --set and --sweep, in the order of the command line.
 struct Overrides {
   std::vector<std::string> settings, sweeps;
 };

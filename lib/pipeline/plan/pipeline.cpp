@@ -54,6 +54,8 @@ class PipelineParser {
  public:
   Findings f;
 
+  // Reads a whole pipeline. The names of all nodes are collected first, because a source may name a
+  // node that is declared below it.
   Pipeline pipeline(const Tree& tree) {
     Pipeline p;
     p.file = tree.place.file;
@@ -76,11 +78,13 @@ class PipelineParser {
  private:
   std::vector<std::string> names_;  // of all nodes
 
+  // An error if the value is not a map.
   bool is_map(const Tree& tree, const std::string& path) {
     if (tree.kind != Tree::Kind::map)
       f.say(tree.place, path, "found " + description(tree), "a map");
     return tree.kind == Tree::Kind::map;
   }
+  // An error for each unknown key of a map, with a suggestion.
   void known_keys(const Tree& tree, const std::string& path,
                   const std::vector<std::string>& known) {
     for (const auto& entry : tree.map)
@@ -93,6 +97,7 @@ class PipelineParser {
     if (!found) f.say(tree.place, join(path, key), "missing", what);
     return found;
   }
+  // A text; an error if the value is a list or a map.
   std::string text(const Tree& tree, const std::string& path) {
     std::string s;
     read_leaf(tree, path, Member{}, s, f);
@@ -156,6 +161,7 @@ class PipelineParser {
     return n;
   }
 
+  // The label that a value has on an axis: 30.0 and 3e1 are both "30".
   std::string label_text(const Tree& tree, const std::string& path) {
     bool is_number = false;
     text(tree, path);
@@ -240,6 +246,8 @@ class PipelineParser {
     return a;
   }
 
+  // A path of keys must have a form like contacts[0].friction. Whether the config has such a key is
+  // checked when the member's config is read.
   void check_key(const std::string& key, const Place& place, const std::string& path) {
     if (split_path(key).empty())
       f.say(place, path, "found the key \"" + key + "\"",
@@ -374,6 +382,7 @@ class PipelineParser {
     }
   }
 
+  // Two equal labels would be one folder.
   void check_points(const Axis& a, const std::string& path) {
     if (a.points.empty()) f.say(a.place, path, "found no values", "at least one");
     std::set<std::string> seen;

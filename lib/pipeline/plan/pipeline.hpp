@@ -41,12 +41,14 @@ namespace langer::pipeline {
 
 using Settings = std::vector<std::pair<std::string, Tree>>;  // key path -> value
 
+// One value of an axis: its label, and what it changes in a node's config.
 struct AxisPoint {
   std::string label;  // "30", "FER"
   Tree config;        // scalar: a file that is used instead of the node's config
   Settings settings;
 };
 
+// One axis of a sweep. The label of a point is part of the name of its folder.
 struct Axis {
   std::string name, unit;
   bool numbers = false;  // all labels are numbers
@@ -56,6 +58,7 @@ struct Axis {
   Place place;
 };
 
+// An input of a node: another node, or a file.
 struct Source {
   std::string port;
   std::string node, file;                               // one of them
@@ -63,6 +66,7 @@ struct Source {
   Place place;
 };
 
+// A stage with its config, inputs and sweep.
 struct Node {
   std::string name;
   const StageSpec* stage = nullptr;
@@ -74,6 +78,7 @@ struct Node {
   Place place, over_place;
 };
 
+// A whole pipeline; nodes are in the order of the file.
 struct Pipeline {
   std::string name, file;
   std::vector<Node> nodes;

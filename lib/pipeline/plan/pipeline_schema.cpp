@@ -35,6 +35,7 @@ Tree keys_of_map(std::vector<Tree::Entry> properties, const std::vector<std::str
   refuse_others(t);
   return t;
 }
+// A value of an axis: a text, a number or a truth value.
 Tree texts() { return types({"string", "number", "boolean"}); }
 Tree one_or_several(Tree one) {
   Tree many = object({{"type", word("array")}, {"items", one}});
@@ -48,6 +49,8 @@ Tree map_of(Tree value) {
 
 Tree array_of_texts() { return object({{"type", word("array")}, {"items", texts()}}); }
 
+// The five kinds of axes. Each is a map with its own required key, so exactly one of them fits, and
+// an editor knows which.
 Tree variants_axis() {
   return keys_of_map({{"variants", described_by("settings, or the path of a config, by name",
                                                 map_of(types({"object", "string", "null"})))}},
@@ -119,6 +122,8 @@ Tree node(const StageSpec& stage) {
 
 }  // namespace
 
+// Nodes of different stages have different ports, so a node is checked by the schema of its own
+// stage.
 std::string pipeline_schema() {
   Definitions definitions;
   Tree axis_schema = axis(definitions);

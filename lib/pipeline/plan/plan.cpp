@@ -172,6 +172,7 @@ class Planning {
     }
   }
 
+  // Keeps an error once, by its text.
   void add_error(const Error& e) {
     for (const Error& known : errors_)
       if (text(known) == text(e)) return;
@@ -264,6 +265,7 @@ std::string as_make_reads(const std::string& folder) {
   return seen;
 }
 
+// A checked plan with the steps that it was made from.
 struct Planned {
   Planning planning;
   PlanReport report;
@@ -300,6 +302,8 @@ PlanReport check_pipeline(const std::string& pipeline_file, std::string folder,
   return planned(pipeline_file, std::move(folder), overrides, true, true).report;
 }
 
+// Writes the plan: configs, Makefile, and what `others` asks for. A lock keeps a second langer-plan
+// away from the same folder.
 PlanReport plan(const std::string& pipeline_file, std::string folder, const std::string& bin,
                 const std::string& command, PlanFor others, const Overrides& overrides) {
   auto [planning, report, name, steps] =

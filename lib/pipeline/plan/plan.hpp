@@ -13,6 +13,7 @@
 
 namespace langer {
 
+// The size of a plan, and warnings.
 struct PlanReport {
   std::string folder;
   std::size_t nodes = 0;

@@ -99,8 +99,8 @@ const StageSpec report_stage{
     "report.html"};
 const StageSpec tune_stage{
     "tune",
-    "Draws the work-precision diagram of a refinement study: which settings give the smallest error "
-    "for their cost.",
+    "Draws the work-precision diagram of a refinement study: which settings give the smallest "
+    "error for their cost.",
     {{.name = "curves",
       .says = "one level of the study: curves of its solution",
       .made_by = {"post"},
@@ -110,6 +110,7 @@ const StageSpec tune_stage{
 
 }  // namespace
 
+// The order is that of the work, and of the pages that list the stages.
 const std::vector<StageSpec>& stages() {
   static const std::vector<StageSpec> table{mesh_stage,        fit_stage,    sample_stage,
                                             sensitivity_stage, solve_stage,  post_stage,

@@ -7,6 +7,7 @@
 
 namespace langer {
 
+// An input of a stage: the option --name of its program, and the key of that name of its node.
 struct Port {
   const char* name;
   const char* says;                  // what the file contains
@@ -19,6 +20,7 @@ struct Port {
   bool members = false;
 };
 
+// One stage, which is the program langer-<name>.
 struct StageSpec {
   const char* name;
   const char* sentence;  // first line of --help

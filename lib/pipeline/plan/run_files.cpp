@@ -25,6 +25,7 @@ namespace {
 
 }  // namespace
 
+// The reason is that of the operating system: missing, a folder, or no permission.
 void require_file(const std::string& path, const Place& named_at, const std::string& key) {
   const std::string reason = unreadable_reason(path);
   if (reason.empty()) return;
@@ -50,6 +51,8 @@ void require_one_source(const StageSpec& stage, const Tree& config,
   }
 }
 
+// The output is checked before the work, which may take hours: it must not be a folder or an input,
+// and only files that Langer made are replaced.
 void check_output(const std::string& output, const std::string& config, const InputFiles& inputs) {
   std::error_code ec;
   if (fs::is_directory(output, ec))
@@ -73,6 +76,7 @@ void check_output(const std::string& output, const std::string& config, const In
     refuse(folder.string(), "this folder cannot be written to");
 }
 
+// Each part of a tree knows its file, so no list of includes is needed.
 std::set<std::string> files_of(const Tree& tree) {
   std::set<std::string> files{tree.place.file};
   for (const Tree& part : tree.list) files.merge(files_of(part));
@@ -80,6 +84,7 @@ std::set<std::string> files_of(const Tree& tree) {
   return files;
 }
 
+// The extension is compared in lower case, because other programs write .INP.
 std::vector<std::string> files_included_by(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -88,6 +93,7 @@ std::vector<std::string> files_included_by(const std::string& path) {
   return included_inp_files(path);
 }
 
+// The values of YAML count and not its bytes, so comments and the order of keys do not matter.
 std::string content_of(const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".h5") return read_origin(path).content_id;
@@ -95,6 +101,7 @@ std::string content_of(const std::string& path) {
   return fnv1a(read_file(path));
 }
 
+// All named files are also protected from being replaced by outputs of this run.
 Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
                      const InputFiles& inputs, const std::string& command) {
   Identity identity{stage, config.full, fnv1a(config.hashed), {}, command};

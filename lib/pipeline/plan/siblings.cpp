@@ -89,6 +89,8 @@ std::string text_without_angles(const Step& step) {
 
 }  // namespace
 
+// Members are compared in their order, so a solution is offered by an earlier step only, and no
+// step waits for a later one.
 void offer_siblings(std::vector<Step>& steps) {
   struct Member {
     std::vector<double> angles;

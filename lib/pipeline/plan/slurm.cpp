@@ -40,7 +40,8 @@ std::string batch_script(const std::string& run, const Jobs& jobs) {
       "#SBATCH --output=slurm/{1}{2}.txt\n"
       "#SBATCH --open-mode=append\n"
       "#SBATCH --requeue\n"
-      "line=$(sed -n \"$((${{LANGER_FIRST:-0}} + ${{SLURM_ARRAY_TASK_ID:-1}}))p\" slurm/{1}.steps)\n"
+      "line=$(sed -n \"$((${{LANGER_FIRST:-0}} + ${{SLURM_ARRAY_TASK_ID:-1}}))p\" "
+      "slurm/{1}.steps)\n"
       "output=${{line%% *}}\n"
       "reads=${{line#\"$output\"}}\n"
       "if [ -n \"$reads\" ] && ! make -q $reads; then\n"
@@ -118,6 +119,7 @@ std::string submit_script(const std::vector<Jobs>& all) {
 
 }  // namespace
 
+// Steps of one node become one job or one array of jobs.
 std::vector<SlurmFile> slurm_files(const std::string& run, const std::vector<Step>& steps) {
   std::vector<Jobs> all;
   std::map<std::string, std::string> maker;  // output -> node

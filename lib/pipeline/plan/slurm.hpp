@@ -13,6 +13,7 @@
 
 namespace langer::pipeline {
 
+// One script; `program`: it can be executed.
 struct SlurmFile {
   std::string name;  // relative to the run's folder
   std::string text;

@@ -25,6 +25,7 @@ std::string rule_name(const std::string& target, std::set<std::string>& taken) {
   return name;
 }
 
+// Paths as a list of Python. They have safe characters only (is_safe_path).
 std::string quoted_list(const std::vector<std::string>& paths) {
   std::string s;
   for (const std::string& path : paths) append(s, ", ", "\"" + path + "\"");
@@ -33,6 +34,7 @@ std::string quoted_list(const std::vector<std::string>& paths) {
 
 }  // namespace
 
+// One rule for each step, as in the Makefile.
 std::string snakefile_text(const std::string& pipeline_file, const std::string& bin,
                            const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);

@@ -11,6 +11,7 @@
 
 namespace langer {
 
+// A config that was read: places of its keys, warnings, and its text for the result file.
 struct ReadConfig {
   Where where;
   std::vector<std::string> notices;  // keys and words by their former names

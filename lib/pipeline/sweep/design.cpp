@@ -57,6 +57,8 @@ std::vector<double> list(const VecX& p) { return {p.data(), p.data() + p.size()}
 
 }  // namespace
 
+// Bounds must be in order, names must differ, and Morris' grid needs an even number of levels: its
+// step is levels / (2 (levels - 1)) of the range, so that all levels are equally likely [M91].
 std::vector<Complaint> Design::complaints() const {
   std::vector<Complaint> all;
   if (parameters.empty()) all.push_back({"parameters", "an empty list", "one key at least", ""});
@@ -94,6 +96,7 @@ std::string short_name(const DesignParameter& p) {
   return name;
 }
 
+// Several methods may use the same point, for example the base value; it is solved once.
 std::vector<VecX> design_points(const Design& design) {
   std::vector<VecX> points;
   std::map<std::vector<double>, bool> seen;
@@ -107,6 +110,8 @@ std::vector<VecX> design_points(const Design& design) {
   return points;
 }
 
+// The methods meet the same points in the same order as in design_points(), because the seed is the
+// same; each point is looked up by its exact values.
 QuantityEffects effects_of(const Design& design, const std::string& name, const std::string& unit,
                            const std::vector<double>& values) {
   const std::vector<VecX> points = design_points(design);

@@ -23,6 +23,7 @@
 
 namespace langer {
 
+// One parameter of a design: a key of a node's config with its range.
 struct DesignParameter {
   std::string key, name, unit = unit::none;
   double lower = 0, upper = 0;
@@ -40,6 +41,7 @@ struct DesignParameter {
   }
 };
 
+// Steps of a single parameter from the lower to the upper bound.
 struct OneAtATimeChoice {
   int steps = 4;
   static void fields(auto& v) {
@@ -48,6 +50,7 @@ struct OneAtATimeChoice {
   }
 };
 
+// The key `design` of an axis: the parameters, one or more methods, and their options.
 struct Design {
   std::vector<DesignParameter> parameters;
   std::optional<OneAtATimeChoice> one_at_a_time;
@@ -70,6 +73,7 @@ struct Design {
   std::vector<Complaint> complaints() const;
 };
 
+// The name in tables: `name`, or the last word of the key.
 std::string short_name(const DesignParameter& p);
 
 // The points of the design, which are the members of the sweep in order. A point has one value for

@@ -94,6 +94,8 @@ Bars bars_of(const Design& design, const QuantityEffects& e,
 
 }  // namespace
 
+// The head is the same for all quantities, so it is made from the first one. Effects of one
+// parameter at a time have no interval.
 std::string effects_csv(const Design& design, const std::vector<QuantityEffects>& effects) {
   std::string text = "quantity,unit,parameter,parameter_unit,lower,upper";
 
@@ -130,12 +132,14 @@ std::string one_at_a_time_text(const std::vector<Value>& all) {
   return fmt::format("{:.3g}", named(all, "one_at_a_time").value);
 }
 
+// mu* with its 95 % interval, and sigma: "0.12 (0.1 to 0.14; 0.02)".
 std::string morris_text(const std::vector<Value>& all) {
   const Value& m = named(all, "morris_mu_star");
   return fmt::format("{:.3g} ({:.3g} to {:.3g}; {:.2g})", m.value, m.low, m.high,
                      named(all, "morris_sigma").value);
 }
 
+// The total share and the share of the parameter alone: "70 % (65 %)".
 std::string sobol_text(const std::vector<Value>& all) {
   return fmt::format("{:.0f} % ({:.0f} %)", 100 * named(all, "sobol_total").value,
                      100 * named(all, "sobol_first").value);
@@ -156,6 +160,7 @@ std::string ranked_parameters(const Design& design, const QuantityEffects& e,
   return line;
 }
 
+// One line for each method that the design has.
 std::vector<std::string> effects_lines(const Design& design, const QuantityEffects& e) {
   std::vector<std::string> lines;
   std::string unit;

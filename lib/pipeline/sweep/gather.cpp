@@ -14,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// A quantity of a summary; nullptr if the member does not have it.
 const Summary* find(const std::vector<Summary>& summary, const std::string& name) {
   const auto it = std::ranges::find(summary, name, &Summary::name);
   if (it == summary.end()) return nullptr;
@@ -69,6 +70,7 @@ std::string cell(double x) {
 
 }  // namespace
 
+// The order of members is that of the files, which plan makes that of the axes.
 Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axes,
              const std::vector<GatherInput>& members, const Place& columns_at) {
   Sweep sweep;
@@ -83,6 +85,7 @@ Sweep gather(const std::vector<std::string>& columns, std::vector<SweepAxis> axe
   return sweep;
 }
 
+// Units are part of the names of columns, as in all tables of Langer.
 std::string csv(const Sweep& sweep) {
   std::vector<std::string> words;
   for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(csv_name(a.name, a.unit)));

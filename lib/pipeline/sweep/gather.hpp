@@ -11,23 +11,27 @@
 
 namespace langer {
 
+// One member of a sweep with its results.
 struct GatherInput {
   std::string path;             // the name of the member
   std::vector<std::string> at;  // its value on each axis, as text
   std::vector<Summary> summary;
 };
 
+// One axis, with the value of each member as text.
 struct SweepAxis {
   std::string name, unit;
   std::vector<std::string> values;  // one per member
   bool samples = false;             // the values number samples of parameters (sweep/spread.hpp)
 };
 
+// One quantity of all members.
 struct SweepColumn {
   std::string name, unit;
   std::vector<double> values;  // one per member
 };
 
+// The table: axes first, then quantities.
 struct Sweep {
   std::vector<std::string> members;
   std::vector<SweepAxis> axes;

@@ -13,6 +13,7 @@
 
 namespace langer {
 
+// A column of axis values. `design` or `samples` add an analysis of the members.
 struct GatherAxis {
   std::string name, unit = "-";
   std::optional<Design> design;
@@ -29,6 +30,7 @@ struct GatherAxis {
   }
 };
 
+// Name and axis values of one gathered file.
 struct GatherMember {
   std::string path;
   std::vector<std::string> at;
@@ -43,6 +45,7 @@ struct GatherMember {
 enum class GatherRows { members, parameters };
 constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
 
+// The config of gather. Without any key the table has all quantities of all files.
 struct GatherConfig {
   GatherRows rows = GatherRows::members;
   std::vector<std::string> columns;

@@ -54,6 +54,7 @@ std::vector<double> selected(const std::vector<double>& all, const std::vector<s
   return some;
 }
 
+// A quantity of a summary; NaN if it does not have it.
 double value_in(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return std::nan("");
@@ -93,6 +94,8 @@ std::vector<SweepColumn> sampled_parameters(const std::vector<std::vector<Summar
   return all;
 }
 
+// The part of the variance that a parameter explains is the squared correlation r², so (1 - r²) of
+// it remains if that parameter is known.
 Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& parameters) {
   std::vector<std::size_t> rows;  // members that have the quantity
   for (std::size_t i = 0; i < column.values.size(); ++i)
@@ -120,6 +123,7 @@ Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& para
   return spread;
 }
 
+// Parameters are sorted by name, so that the columns do not depend on which one matters most.
 std::string spread_csv(const std::vector<Spread>& all) {
   std::vector<std::string> names;
   for (const Spread& one : all)
@@ -163,6 +167,7 @@ std::string in_words(const Spread& s) {
   return words;
 }
 
+// The statistics are computed at each x separately: a band is no curve of any sample.
 Band band_of(const std::string& figure, const std::vector<const Column*>& x,
              const std::vector<const Column*>& y) {
   Band band{figure, *x[0], *y[0], *y[0], *y[0], *y[0]};
@@ -178,6 +183,8 @@ Band band_of(const std::string& figure, const std::vector<const Column*>& x,
   return band;
 }
 
+// Parameters of a quantity are in the order of their importance, which the attribute `order`
+// records.
 void write_spread(const h5::Group& root, const std::vector<Spread>& all,
                   const std::vector<Band>& bands) {
   const h5::Group spreads = root.make_group("spread");

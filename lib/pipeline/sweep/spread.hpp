@@ -19,6 +19,7 @@
 
 namespace langer {
 
+// Mean, standard deviation, 95 % interval and the important parameters of one quantity.
 struct Spread {
   std::string name, unit;
   double mean = 0, deviation = 0, low = 0, high = 0;

@@ -16,6 +16,7 @@
 
 namespace langer {
 
+// Lists that belong to y must have its length, or contain names of y only.
 std::vector<Complaint> SweepFigure::complaints() const {
   std::vector<Complaint> found;
   if (y.empty()) found.push_back({"y", "an empty list", "one or more names", ""});
@@ -32,6 +33,7 @@ std::vector<Complaint> SweepFigure::complaints() const {
   return found;
 }
 
+// A pattern is used as it is; only the default adds units.
 std::string member_text(const std::string& pattern, const std::vector<SweepAxis>& axes,
                         const std::vector<std::string>& at) {
   std::string values;
@@ -67,6 +69,7 @@ struct Table {
     columns.push_back(std::move(values));
     return head;
   }
+  // The text of the table; rows are as many as the longest column has.
   std::string csv() const {
     std::string text;
     for (const std::string& head : heads) append(text, ",", csv_cell(head));
@@ -98,6 +101,7 @@ std::string label_of(const std::string& name) {
   return found->label;
 }
 
+// An error with the names that members have, and a suggestion.
 [[noreturn]] void unknown(const Place& place, const std::string& key, const std::string& name,
                           const std::vector<std::string>& known) {
   const std::string near = nearest(name, known);
@@ -118,6 +122,8 @@ class Drawer {
         members_(members),
         where_(where) {}
 
+  // Chooses what x is, adds the lines, then the labels: the unit of y is known only when a line has
+  // been added. With several y the label is their unit alone.
   FigureData data() {
     data_.plot.title = figure_.title;
     data_.plot.scale = figure_.scale;
@@ -326,6 +332,7 @@ class Drawer {
     }
     unknown(where_(key), key, name, known);
   }
+  // The quantities of all members, for messages.
   std::vector<std::string> summary_names() const {
     std::vector<std::string> names;
     for (const SweepMember& m : members_)

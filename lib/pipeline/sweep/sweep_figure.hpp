@@ -22,6 +22,7 @@
 
 namespace langer {
 
+// A figure as the config describes it.
 struct SweepFigure {
   std::string x;
   std::vector<std::string> y, legends, markers, once;
@@ -36,10 +37,11 @@ struct SweepFigure {
       "names from the summary, or columns of the members' tables; of the same unit", required);
     v(&SweepFigure::legends, "legends", unit::none, "one for each y; by default the names");
     v(&SweepFigure::markers, "markers", unit::none,
-      "names of y that are drawn as open markers without a line, so that they can be seen on curves "
-      "that they coincide with");
+      "names of y that are drawn as open markers without a line, so that they can be seen on "
+      "curves that they coincide with");
     v(&SweepFigure::once, "once", unit::none,
-      "names of y that are the same for every member, such as measured values; drawn for the first");
+      "names of y that are the same for every member, such as measured values; drawn for the "
+      "first");
     v(&SweepFigure::member, "member", unit::none,
       "name of a member in legends; {} is replaced by its value on the axes; by default the value "
       "and its unit");
@@ -99,6 +101,7 @@ struct Band {
   std::string figure;
   Column x, mean, deviation, low, high;
 };
+// A figure that is ready to be drawn, and the table of its numbers.
 struct FigureData {
   Plot plot;
   std::string csv;

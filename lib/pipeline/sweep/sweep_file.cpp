@@ -75,6 +75,7 @@ void write_effects(const h5::Group& root, const Design& design,
 
 }  // namespace
 
+// The file appears under its name only when it is complete (h5::File::commit).
 void write_sweep(const std::string& path, const std::string& csv_path, const Sweep& sweep,
                  const Design* design, const std::vector<QuantityEffects>& effects,
                  const Identity& identity, const std::vector<Spread>& spreads,

@@ -72,6 +72,7 @@ struct TuneReference {
   }
 };
 
+// The config of tune.
 struct TuneConfig {
   std::vector<std::string> quantities;
   TuneReference reference;

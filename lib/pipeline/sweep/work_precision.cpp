@@ -31,6 +31,8 @@ Limit fitted_limit(const std::vector<double>& lengths, const std::vector<double>
           std::sqrt(residual / (n - 2) * (1 / n + x_mean * x_mean / xx))};
 }
 
+// With differences that shrink by the constant factor r^p the remaining error is a geometric
+// series, whose sum is second / (r^p - 1).
 Limit richardson(double coarse, double middle, double fine, double ratio) {
   const double first = coarse - middle;
   const double second = middle - fine;
@@ -44,6 +46,7 @@ Limit richardson(double coarse, double middle, double fine, double ratio) {
   return {limit, order, std::abs(limit - fine)};
 }
 
+// Sorted by cost, a level is on the front if its error is below that of all cheaper ones.
 std::vector<int> pareto_front(const std::vector<double>& cost, const std::vector<double>& error) {
   std::vector<std::tuple<double, double, int>> order;  // cost, error, index
   for (int i = 0; i < static_cast<int>(cost.size()); ++i)
@@ -59,6 +62,8 @@ std::vector<int> pareto_front(const std::vector<double>& cost, const std::vector
   return front;
 }
 
+// The front rises in cost and falls in error, so its first level below the wanted error is the
+// cheapest.
 int cheapest(const std::vector<double>& cost, const std::vector<double>& error, double wanted) {
   for (int i : pareto_front(cost, error))
     if (error[i] <= wanted) return i;

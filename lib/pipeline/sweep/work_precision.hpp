@@ -16,6 +16,7 @@
 
 namespace langer {
 
+// A limit for vanishing mesh size, with its uncertainty.
 struct Limit {
   double value = 0;
   double order = 0;        // p; 0 if the finest value is used as the limit
