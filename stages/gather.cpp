@@ -1,5 +1,9 @@
-// langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5: one row per file,
-// also as table.csv; figures and maps of all members.
+// langer-gather: one table over the members of a sweep.
+//   langer-gather table.yaml --curves a/curves.h5 --curves b/curves.h5 -o sweep.h5
+//
+// The table has one row per file; it is also written as table.csv. Figures and maps show all
+// members together. If the members are a design of experiments or samples of fitted parameters,
+// effects or spreads are computed.
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
@@ -231,6 +235,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
     axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
 
+  // Analyses of the members: effects of a design, or the spread over samples.
   Pictures pictures(job.side_file(""), config.figure_style);
   std::vector<QuantityEffects> effects;
   const Design* design = nullptr;
@@ -239,6 +244,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   std::vector<Spread> spreads;
   std::vector<Band> bands;
   if (axes.size() == 1 && axes[0].samples) spreads = spreads_over(job, inputs, sweep);
+  // Maps of all members side by side, with one colour scale.
   for (const auto& [name, map] : config.maps) {
     const auto maps = maps_of(job, sweep, members, name);
     if (map.compare) sweep.columns.push_back(differences(job, members, name, maps));
@@ -247,6 +253,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
       panels.push_back({member_text(map.member, axes, members[i].at), maps[i]});
     pictures.draw(name, map_drawing(panels, map.style, map.columns, pictures.look()));
   }
+  // Figures over an axis, or of the members' curves.
   for (const auto& [name, figure] : config.figures) {
     const auto where = [&, at = "figures." + name + "."](const std::string& key) {
       return job.where(at + key);

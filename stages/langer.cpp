@@ -1,5 +1,8 @@
 // langer show | new | check | describe | schema | explain | times | crate | doctor | man |
 // completion: commands that read files and configs but compute nothing.
+//
+// Each command has a page in the table of cli/manual.cpp. Its positional arguments and options are
+// taken from there, so a new command needs a line in that table and one in run_command().
 #include <algorithm>
 #include <optional>
 

@@ -1,5 +1,6 @@
-// langer-plan pipelines/x.yaml [-o runs/x]: checks everything that a pipeline names, then writes
-// its Makefile and configs.
+// langer-plan: checks everything that a pipeline names, then writes its Makefile and configs.
+//   langer-plan pipelines/indentation.yaml -o runs/indentation
+// It runs nothing itself; `make -C runs/indentation` does.
 #include "pipeline/plan/plan.hpp"
 
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 int main(int argc, char** argv) {
   using namespace langer;
+  // langer-plan has no config and no identity, so it does not use the frame of the stages.
   std::string file;
   std::string folder;
   pipeline::Overrides overrides;

@@ -1,4 +1,6 @@
-// langer-post: curves, snapshots and figures of a solution.
+// langer-post: curves, snapshots and figures of a solution. Nothing is solved here: all quantities
+// are evaluated from the displacements of each step, and from the columns that langer-solve
+// recorded.
 //   langer-post indentation.yaml --solution solution.h5 -o curves.h5
 //   langer-post --solution solution.h5 --export scene.inp --export scene.feb
 #include <set>
@@ -414,6 +416,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   follow_records(indenters, solution.reader);
   const std::vector<std::string> missing = indenters_missing(header, indenters);
 
+  // Columns that this solution cannot have are errors, before any work.
   Available available{!header.contact_nodes.empty(), missing.empty(), {}};
   if (solution.reader.n_steps() > 0)
     for (const auto& [name, value] : solution.reader.step(0).scalars)
@@ -428,6 +431,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
     complaints.insert(complaints.end(), more.begin(), more.end());
   if (!complaints.empty()) refuse(job, complaints);
 
+  // `further` columns are used by figures and the summary, but are not in the table.
   std::vector<Measure> measures = shown.measures;
   measures.insert(measures.end(), further.measures.begin(), further.measures.end());
   const ContactStates contacts(solution.reader, indenters);
@@ -456,6 +460,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   draw_renders(job, solution, renders, indenters, contacts, pictured, pictures);
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
+  // The cost of the solution is kept for work-precision diagrams (langer-tune).
   Identity identity = job.identity;
   identity.solution_cost = header.identity.solution_cost;
   add_solution_summary(solution.reader, curves.summary);

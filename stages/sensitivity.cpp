@@ -111,6 +111,7 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   const Ranking chosen = ranking(config, material, fit, job.where);
   SensitivityRecord record;
   record.parameters = chosen.numbers;
+  // Strains are evenly spaced; the last one is set exactly, without rounding.
   for (int i = 0; i < config.strain.points; ++i)
     record.strain.push_back(config.strain.from + i * (config.strain.to - config.strain.from) /
                                                      (config.strain.points - 1));
@@ -134,6 +135,7 @@ std::vector<Summary> sensitivity(const Job<SensitivityConfig>& job) {
   job.say(
       "one at a time, {} steps for each of {} parameters, {} strains; interactions are not seen",
       config.steps, k, config.strain.points);
+  // Methods that see interactions. Zones average the effects over ranges of strain.
   SamplingOptions options;
   options.seed = static_cast<std::uint64_t>(config.seed);
   options.threads = config.threads;

@@ -214,7 +214,10 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
   for (const GatherAxis& a : job.config.axes) axes.push_back({a.name, a.unit, {}});
   const Sweep values = gather(job.config.quantities, axes, levels.members, job.where("quantities"));
   Sweep sweep = values;
-  std::vector<double> cpu, wall, memory;
+  // The cost of each level is part of the table.
+  std::vector<double> cpu;
+  std::vector<double> wall;
+  std::vector<double> memory;
   for (const Cost& c : levels.cost) {
     cpu.push_back(c.cpu);
     wall.push_back(c.wall);
@@ -233,6 +236,7 @@ std::vector<Summary> tune(const Job<TuneConfig>& job) {
     const LevelErrors errors = errors_of(column.values, cpu, reference);
     job.say("{}: reference {:.6g} {}{}", column.name, right, column.unit,
             reference_words(job, errors, reference.limit));
+    // Errors and membership of the front become columns of the table, too.
     std::vector<double> on_front(cpu.size(), 0);
     for (int i : errors.front) on_front[static_cast<std::size_t>(i)] = 1;
     sweep.columns.push_back({column.name + "_error", "percent", errors.all});

@@ -1,3 +1,9 @@
+// RO-Crate of a run. The graph of the description has these entities:
+//   File                 every file, with size and SHA-256; results with content id and summary
+//   PropertyValue        a number of a result's summary, with its unit
+//   CreateAction         a step: program, inputs, outputs, start and end from its log
+//   SoftwareApplication  a program with its version
+//   Dataset              the run as a whole: title, license, all files and steps
 #include "cli/crate.hpp"
 
 #include <fmt/format.h>
@@ -167,6 +173,7 @@ class Crate {
       Identity made;
       if (ours) made = read_origin((folder_ / rule.target).string()).identity;
       for (const auto& [key, path] : inputs_of(rule)) {
+        // Inputs inside of the folder may be made by earlier steps; they are compared, not copied.
         const bool outside = is_outside(path);
         if (outside) check_place(path);
         const std::string file = (folder_ / path).string();
@@ -420,6 +427,7 @@ class Crate {
     parts.push_back(
         {"description", text(command.substr(2) + "; " +
                              program.substr(std::min<std::size_t>(2, program.size())))});
+    // The end is the start plus the wall time of the last successful run in the log.
     const std::size_t comma = program.rfind(", ");
     std::tm start{};
     if (comma == std::string::npos ||
@@ -519,6 +527,7 @@ std::string same_results(const std::string& folder, const std::string& other) {
                 "was made from another config or other inputs than " + here.string());
     }
   }
+  // Tables of inputs are not results, so they do not count.
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().lexically_relative(folder).string();
     if (!entry.is_regular_file() || entry.path().extension() != ".csv" ||

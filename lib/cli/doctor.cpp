@@ -53,6 +53,7 @@ struct Tool {
   const char* install;  // package of Debian; may be empty
   bool needed = false;
 };
+// What works without a tool is said, because most users need only some of them.
 constexpr Tool tools[]{
     {"make", "make --version", "pipelines cannot run", "make", true},
     {"gnuplot", "gnuplot --version",

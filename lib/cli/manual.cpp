@@ -1,3 +1,5 @@
+// The commands of `langer`, the man pages, and the completion of bash. All of them are generated
+// from the tables of usage and of stages, so they cannot contradict the programs.
 #include <fmt/format.h>
 
 #include <algorithm>

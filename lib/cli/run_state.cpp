@@ -50,6 +50,8 @@ std::vector<std::string> changed_keys(const MadeBy& rule) {
   const ConfigKind* kind = find_config_kind(rule.stage);
   if (!kind || fs::path(rule.target).extension() != ".h5") return changes;
   try {
+    // Both configs are effective ones, so only real differences remain. A path may be written in
+    // two ways; then it is compared after normalisation.
     std::map<std::string, std::string> before;
     std::map<std::string, std::string> now;
     flatten(parse_yaml(read_origin(rule.target).identity.config, "before"), "", before);

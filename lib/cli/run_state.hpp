@@ -1,6 +1,10 @@
 // The state of a run's folder: which steps are done, failed or not run, their time and memory, and
-// why make would run one again. It is read from the generated Makefile, the logs (--log) and the
-// configs in the result files.
+// why make would run one again.
+//
+// There is no data base of runs. The state is read from the generated Makefile (which steps there
+// are), the logs of --log (time, memory, exit code), the times of files (as make does) and the
+// configs in the result files (which keys have changed). So it is right also after a run was
+// copied, interrupted, or partly deleted by hand.
 #pragma once
 
 #include <string>

@@ -219,6 +219,7 @@ std::string help_text(const Usage& u) {
       head.clear();
     }
   }
+  // The keys of the config as a table of three columns; the text of a key is cut to one line.
   if (!u.keys.empty()) {
     std::size_t key = 0;
     std::size_t kind = 0;

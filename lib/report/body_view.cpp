@@ -138,6 +138,7 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
   std::map<std::array<int, 4>, int> place;  // sorted nodes -> facet of the surface
   for (std::size_t f = 0; f < surface.size(); ++f)
     place[sorted_nodes(surface[f])] = static_cast<int>(f);
+  // Only every n-th facet of the surface has a fibre.
   const std::size_t every = std::max<std::size_t>(1, surface.size() / most_glyphs);
   std::size_t seen = 0;
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -147,6 +148,8 @@ Glyphs glyphs_of(const Body& body, const std::vector<std::array<int, 4>>& surfac
       const auto found = place.find(sorted_nodes(nodes));
       if (found == place.end() || seen++ % every != 0) continue;
       const Vec3 normal = facet_normal(mesh, surface[static_cast<std::size_t>(found->second)]);
+      // The weights are the directional derivative of the shape functions along the fibre, at the
+      // middle of the element: w_k = grad N_k . a.
       const Hex8::Gradient dN = Hex8::gradient(Vec3::Zero());
       const Mat3 jacobian = element_nodes(mesh, e).transpose() * dN;  // dX/dxi
       for (const Vec3& a : body.fibres(e / parts)) {
@@ -173,6 +176,7 @@ Json indenters_view(const SolutionReader& solution, const std::vector<double>& t
   Shown region = shown_of(header.mesh);
   region.parts = parts;
   for (const RigidContact& indenter : indenters) {
+    // Faces with more than three corners become a fan of triangles.
     const Outline outline = langer::outline(indenter.shape, region);
     std::vector<float> points;
     for (const Vec3& x : outline.points)
@@ -287,6 +291,7 @@ States states_of(const SolutionReader& solution, Body& body, const Chosen& chose
   BranchRows branches(body, solution);
   const bool touched = std::ranges::any_of(fields, needs_contact);
   for (const int row : rows) {
+    // Viscous stresses depend on the history, so the branches follow the rows.
     branches.go_to(row);
     StepRecord record;
     StepState state = unloaded(body.mesh());
@@ -344,6 +349,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
 
   const Chosen whole(mesh, surface, true);
   const Chosen outside(mesh, surface, false);
+  // Indenters are needed in any case. The rest of the budget is for the body.
   const double left = budget - static_cast<double>(indenters_view(solution, {}).text.size());
   const BodySize size{between_nodes(mesh).connectivity.size(), surface.size(), fields.size()};
   const auto [cells, states] =
@@ -353,11 +359,13 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
 
   const States at = states_of(solution, body, chosen, rows, config.stress, contacts, fields);
 
+  // One scale for the displacements of all states, so that the page can interpolate between them.
   double largest = 0;
   for (const auto& state : at.u)
     for (double v : state) largest = std::max(largest, std::abs(v));
   double step = 1;  // [mm], so that the largest displacement is the largest 16-bit integer
   if (largest > 0) step = largest / 32767;
+  // Node numbers in the page are those of the chosen nodes.
   std::vector<float> X;
   for (const int node : chosen.nodes)
     for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));

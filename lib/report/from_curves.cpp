@@ -1,3 +1,6 @@
+// The charts of curves.h5. A reader compares places in one solution, or the same curve of several
+// solutions; so with one file curves share a chart by quantity, with several files by name. Error
+// bands are curves of their own in the file, and are drawn around the curve they belong to.
 #include <algorithm>
 #include <cctype>
 #include <map>

@@ -1,3 +1,6 @@
+// A fitted material in a report. Three questions are answered: does the model follow the tests
+// (fits and their misfit), do the tests determine the parameters (profiles, correlations, bounds),
+// and is the model stable where it may be used (strong ellipticity over the plane of stretches)?
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// The effects of material parameters on the stress (sensitivity.h5), as charts over the strain.
 #include <sstream>
 
 #include "core/hdf5/h5.hpp"

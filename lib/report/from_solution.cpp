@@ -1,3 +1,10 @@
+// Solutions in a report: what a reader must know before the numbers can be used. The verdicts come
+// from columns of /history, which langer-solve records at every step, and from its summary:
+//   equilibrium   relative residual and number of iterations
+//   stability     negative eigenvalues of the constrained tangent, loss of strong ellipticity
+//   deformation   elements outside of the range of the fitted tests, changes of volume
+//   contact       whether the indenter touches, and its penetration between nodes
+//   errors        estimated errors, compared with the wanted accuracy
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,3 +1,7 @@
+// Sweeps in a report: the table of all members, and pictures if the members differ in one number.
+// Over an angle the results are drawn as polar diagrams, together with the residuals of symmetries
+// that a square scene must have: a mesh without that symmetry shows up there. A sweep over samples
+// of fitted parameters has the spread of each quantity instead.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -206,6 +210,7 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     std::vector<Axis> axes;
     for (const std::string& name : axis_group.datasets())
       axes.push_back(read_axis(axis_group, name));
+    // Rows begin with the values on the axes; without an axis, with the name of the member.
     std::istringstream members(file.root().read_text("members"));
     ReportTable table{"Sweep: " + source.label, {}, {}};
     for (std::string member; std::getline(members, member);) {
@@ -223,6 +228,7 @@ void add_sweeps(ReportPage& page, const std::vector<Source>& sources) {
     const bool numeric = axes.size() == 1 && axes[0].words.empty();
     const bool is_curve = numeric && n > 1;
     const bool is_angle = numeric && n > 2 && axes[0].unit == "deg";
+    // A column with a gap (a member without the quantity) is in the table, but has no curve.
     std::vector<Series> columns;
     std::vector<std::string> units;
     for (const std::string& name : values.datasets()) {

@@ -1,3 +1,6 @@
+// Writes a report as one HTML file. The data are JSON inside of a <script>; lib/report/page/*.js
+// draws them in the browser. So charts have values under the pointer, and the body can be turned,
+// without a server or a network.
 #include "report/page.hpp"
 
 #include "core/base/version.hpp"

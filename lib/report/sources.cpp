@@ -77,6 +77,7 @@ std::vector<Source> labelled(const std::vector<std::string>& paths) {
     while (all_share(folders, front, true, 0)) ++front;
     while (all_share(folders, back, false, front)) ++back;
   }
+  // The folders between the shared ones are the label.
   std::vector<Source> sources;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     Source source{paths[i], "", 0, false};
@@ -101,6 +102,7 @@ std::vector<Source> labelled(const std::vector<std::string>& paths) {
 
 // A file without one of the quantities has NaN in its row.
 void add_summaries(ReportPage& page, const std::string& title, const std::vector<Source>& sources) {
+  // The columns are all quantities that any file has, in the order of their first appearance.
   ReportTable table{title, {{"", ""}}, {}};
   std::vector<std::vector<Summary>> all;
   for (const Source& source : sources) {

@@ -1,4 +1,7 @@
 // The files that a report is made from, by kind, and what each kind adds to the page.
+//
+// A report shows one run, which may be a sweep of many members. Files of one kind are compared with
+// each other, so each needs a short label; it is made from the parts of the paths that differ.
 #pragma once
 
 #include <map>

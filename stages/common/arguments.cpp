@@ -49,6 +49,7 @@ void Arguments::version() {
 // CLI11 answers --help only if nothing else is wrong, so the options are searched for it first.
 bool Arguments::read(const Usage& usage, int argc, char** argv, int& code) {
   CLI::App& app = parser_->app;
+  // Every option must have a help text; see cli/usage.hpp.
   std::vector<std::string> known;
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();

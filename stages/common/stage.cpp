@@ -1,3 +1,11 @@
+// The order of a stage's program:
+//   options       --help, --describe and --version are answered at once
+//   ranks         under mpirun: langer-solve uses all, other programs one
+//   protection    config and inputs can no longer be replaced
+//   config        read with includes and --set, checked; inputs must exist
+//   identity      hash of config and inputs, which the output records
+//   lock          a second run with the same output ends here
+//   work          the stage itself; it writes its main output last
 #include "stage.hpp"
 
 #include <algorithm>
@@ -176,6 +184,7 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& log
     if (task.json) put_out(json_text(task.identity, {}));
     return static_cast<int>(Exit::ok);
   }
+  // The lock is released when this function ends, also by an exception.
   std::optional<OutputLock> lock;
   task.side_folder = std::filesystem::path(task.output).parent_path().string();
   if (!task.dry_run) {

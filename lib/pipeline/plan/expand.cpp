@@ -122,6 +122,7 @@ class Expansion {
       return;
     }
     open_.push_back(&n);
+    // `found`: the axes of this node; `below`: those of its inputs.
     std::vector<std::string> found;
     for (const Axis& axis : n.sweep) found.push_back(axis.name);
     std::vector<std::string> below;
@@ -237,6 +238,7 @@ class Expansion {
   // of
   // the axes.
   Tree config_at(const Node& n, const Point& at) {
+    // A variant may name another config instead of changing keys.
     const Tree* source = &n.config;
     for (const Axis& axis : n.sweep)
       if (const Tree& other = axis.points[at.at(axis.name)].config;
@@ -280,6 +282,8 @@ class Expansion {
     }
     const Node& from = *pipeline_.node(s.node);
     const std::vector<const Axis*>& axes = axes_of_[s.node];
+    // All members along the gathered axes become inputs. On its other axes the source has the same
+    // point as the node, or the one that the pipeline names.
     std::vector<const Axis*> gathered;
     for (const Axis* axis : axes)
       if (contains(n.over, axis->name) && !chosen(s, axis->name)) gathered.push_back(axis);

@@ -137,6 +137,7 @@ class PipelineParser {
               did_you_mean(near));
     }
     if (!n.stage) return n;
+    // The ports of the stage are keys of the node.
     std::vector<std::string> known{"stage", "config", "set", "sweep", "over"};
     for (const Port& port : n.stage->inputs) known.push_back(port.name);
     known_keys(tree, path, known);

@@ -86,6 +86,7 @@ class Planning {
       files.push_back(
           {config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
     });
+    // Snakemake reserves as many cores.
     rule.threads = threads_of(step.config);
     if (step.final) finals.push_back(rule.target);
     rules.push_back(std::move(rule));
@@ -167,6 +168,7 @@ class Planning {
     try {
       work();
     } catch (const Failure& failure) {
+      // An error of the config is more important than a missing file.
       if (failure.code() != Exit::input) code_ = failure.code();
       for (const Error& e : failure.errors()) add_error(e);
     }
@@ -308,6 +310,8 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
                 const std::string& command, PlanFor others, const Overrides& overrides) {
   auto [planning, report, name, steps] =
       planned(pipeline_file, std::move(folder), overrides, !others.slurm);
+  // Everything is right: from here on files are written. First of all it is checked that no
+  // generated file would replace one of the user's.
   make_folder_below(report.folder, report.folder);
   const fs::path run = report.folder;
   const std::string makefile = (run / "Makefile").string();
@@ -318,6 +322,7 @@ PlanReport plan(const std::string& pipeline_file, std::string folder, const std:
   for (const TextFile& file : planning.files) {
     report.changed += write_if_changed(run, file.path, file.text);
   }
+  // The Makefile is written after the configs: until it exists, make runs nothing.
   const std::string seen_bin = as_make_reads(relative_path(bin, report.folder));
   const std::string file_name = fs::path(pipeline_file).filename().string();
   write_if_changed(run, "Makefile",

@@ -63,6 +63,7 @@ void check_output(const std::string& output, const std::string& config, const In
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
   need_own_output(output);
+  // Unfinished output, journal and lock of a run are next to its output.
   for (const char* suffix : {".part", ".steps", ".lock"}) need_replaceable(output + suffix);
   fs::path folder = fs::path(output).parent_path();
   if (folder.empty()) folder = ".";
@@ -111,6 +112,7 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
       if (files.size() > 1) name = item(port, i);
       identity.inputs[name] = content_of(files[i]);
     }
+  // Files that the config names count by their key, and an .inp also with the files it includes.
   for (const NamedFile& file : config.files) {
     require_file(file.path, where(file.key), file.key);
     identity.inputs[file.key] = content_of(file.path);

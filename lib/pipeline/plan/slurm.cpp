@@ -102,6 +102,7 @@ std::string submit_script(const std::vector<Jobs>& all) {
     if (!after.empty()) wait = fmt::format(" --dependency=afterany{}", after);
     const std::string name = variable(jobs->node);
     submit += name + "=\n";
+    // sbatch prints the job's number, which the variable of the node collects for later nodes.
     for (std::size_t first = 0; first < jobs->steps.size(); first += largest_array) {
       const std::size_t n = std::min(largest_array, jobs->steps.size() - first);
       std::string options = wait;

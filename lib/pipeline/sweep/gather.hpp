@@ -1,6 +1,9 @@
 // One table over the members of a sweep: a row per member, first its values on the axes, then
-// quantities of its summary. A quantity that a member does not have is NaN here and an empty cell
-// in CSV. Refused: a quantity that no member has, a quantity whose unit differs between members.
+// quantities of its summary.
+//
+// Every file of a stage has a /summary: a few numbers with names and units, such as the force of a
+// solution. A quantity that a member does not have is NaN here and an empty cell in CSV. Refused: a
+// quantity that no member has, and a quantity whose unit differs between members.
 #pragma once
 
 #include <string>

@@ -241,6 +241,7 @@ class Drawer {
       std::ranges::stable_sort(points, {}, &std::pair<double, const SweepMember*>::first);
       std::vector<double> x;
       for (const auto& [value, member] : points) x.push_back(value);
+      // Axes of angles have a tick every 30 degrees.
       if (axes_[axis].unit == "deg" && x.back() - x.front() >= 90 && x.back() - x.front() <= 360)
         data_.plot.x_step = 30;
       std::string ending;
@@ -306,6 +307,7 @@ class Drawer {
       for (const SweepMember& m : members_)
         y.push_back(&column(m, fmt::format("y[{}]", i), figure_.y[i]));
       check_unit(i, y[0]->unit);
+      // The table has mean, deviation and interval; the picture has the mean and the deviation.
       const Band band = band_of(name_, x, y);
       const std::string unit = y[0]->unit;
       const std::string mean = table_.add(csv_name(figure_.y[i] + "_mean", unit), band.mean.values);
