@@ -1,4 +1,5 @@
-// langer-mesh: a mesh with named sets and local fibre frames.
+// langer-mesh: a mesh with named sets and local fibre frames. The mesh is a block, a body of
+// revolution, a section, or read from a file of another program.
 //   langer-mesh indentation.yaml -o mesh.h5
 #include <filesystem>
 

@@ -1,3 +1,5 @@
+// `langer check`: reads a file as its program would, without running anything. So the messages are
+// the same as those of the run.
 #include "cli/check.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// `langer doctor`. Versions are found by running the programs themselves, as a user would.
 #include "cli/doctor.hpp"
 
 #include <fmt/format.h>

@@ -57,6 +57,7 @@ Usage command(const char* program, const char* sentence, std::vector<UsageOption
 // The commands of `langer`. Kinds of configs come from the table of stages, so a new stage appears
 // here without a change.
 std::vector<Usage> table_of_commands() {
+  // A pipeline has a schema, but its keys depend on the stages, so it has no listing to describe.
   std::vector<std::string> kinds = config_kind_names();
   std::vector<std::string> described = kinds;
   kinds.push_back("pipeline");
@@ -292,6 +293,7 @@ std::string completion_text() {
       "COMPREPLY+=($(compgen -f -X \"!*.$end\" -- \"$cur\")); done\n"
       "  compopt -o filenames\n"
       "}\n";
+  // Every function begins with the current and the previous word of the command line.
   const auto words =
       "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n";
   std::vector<std::string> programs;

@@ -1,3 +1,4 @@
+// `langer times` and `langer explain`: the state of a run from its Makefile, logs and files.
 #include "cli/run_state.hpp"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // The JSON Schema of every kind of YAML file: configs of the stages, materials, pipelines.
+//
+// An editor with a YAML language server completes keys and shows errors while a config is written,
+// if the file's first line names its schema. The schemas are made from the listings of keys by
+// which the programs read the configs, so both have the same rules.
 #pragma once
 
 #include <string>

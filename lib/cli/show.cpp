@@ -1,3 +1,6 @@
+// `langer show`. Each kind of file has a function that prints its parts; a kind without one is
+// shown as a list of its datasets. Values are rounded here; the file and its CSV tables have all
+// digits.
 #include "cli/show.hpp"
 
 #include <fmt/format.h>
@@ -86,6 +89,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 // A set of one node is an observation point, and shown with its place.
 void show_mesh(Page& page, const Mesh& mesh) {
+  // Number of elements of each body.
   std::vector<int> cells(std::max<std::size_t>(1, mesh.bodies.size()));
   for (int b : mesh.body) ++cells.at(static_cast<std::size_t>(b));
   std::vector<std::string> bodies;
@@ -332,6 +336,7 @@ std::string show(const std::string& path) {
                           size_words(std::filesystem::file_size(path)));
   const h5::File file = h5::File::open(path);
   const h5::Group root = file.root();
+  // Time, host and version are stored apart from the identity, because they are no part of it.
   std::string when;
   if (root.has("provenance"))
     for (const char* name : {"created_utc", "host", "code_version"})

@@ -1,3 +1,4 @@
+// `langer new`: writes a starter project from the files of share/new.
 #include "cli/starter.hpp"
 
 #include <algorithm>

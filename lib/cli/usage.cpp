@@ -1,3 +1,4 @@
+// The pages of --help: wrapping, synopsis, and the options of stages and of langer-plan.
 #include "cli/usage.hpp"
 
 #include <fmt/format.h>

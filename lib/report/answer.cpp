@@ -1,3 +1,5 @@
+// Composes the sentence at the top of a report, such as "A sphere of radius 2.5 mm pressed 1 mm
+// along −y into a body of 30 × 4 × 30 mm: 10.8 N ± 0.4 %", and the facts below it.
 #include "report/answer.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Packs a deformed body for the page. Most of a page are displacements and fields of many states,
+// so they are stored as 16-bit integers, and the number of states follows from the allowed size.
 #include "report/body_view.hpp"
 
 #include <Eigen/Geometry>

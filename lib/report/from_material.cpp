@@ -200,6 +200,7 @@ void add_stability(ReportPage& page, const Source& source, const h5::Group& root
   for (std::size_t i = 0; i < n; ++i)
     map.values.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(i * n),
                             values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+  // The point of the grid that is closest to the undeformed state.
   std::size_t rest = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (std::abs(map.at[i] - 1) < std::abs(map.at[rest] - 1)) rest = i;

@@ -12,6 +12,7 @@ std::string plain_label(const char* label) {
   std::string s = label;
   std::erase(s, '{');
   std::erase(s, '}');
+  // σ_xx becomes σxx; an underscore after other letters is part of the name.
   for (const char* greek : {"σ", "ε"})
     if (const auto at = s.find(greek + std::string("_")); at != s.npos)
       s.erase(at + std::string_view(greek).size(), 1);

@@ -163,6 +163,7 @@ std::string html(const ReportPage& page) {
       {"title", title},      {"style", style_css}, {"three", three},
       {"orbit", orbit},      {"data", data},       {"charts", charts_js},
       {"tables", tables_js}, {"body", body_js},    {"main", main_js}};
+  // A value may contain braces itself, so the text is scanned once and never searched again.
   std::string text;
   std::string_view rest = index_html;
   for (;;) {

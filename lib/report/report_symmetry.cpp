@@ -17,6 +17,7 @@ bool same_direction(double a, double b) { return std::abs(std::remainder(a - b, 
 std::optional<SymmetryResidual> compared(std::string says, const std::vector<double>& angle,
                                          const std::vector<double>& a, const std::vector<double>& b,
                                          double partner, bool both_ways) {
+  // The residual is relative to the largest value, because single values may pass through 0.
   SymmetryResidual residual{std::move(says), 0, 0};
   double largest = 0;
   double scale = 0;

@@ -1,3 +1,5 @@
+// Labels of the files of a report, and the parts of a page that all kinds of files have: a table of
+// summaries, and the origin of each file.
 #include "report/sources.hpp"
 
 #include <algorithm>

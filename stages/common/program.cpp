@@ -1,3 +1,5 @@
+// The frame of every program. A program ends by _exit() after its files are written and closed: the
+// clean-up of some libraries is slow, or fails when memory has run out.
 #include "program.hpp"
 
 #include <sys/resource.h>

@@ -1,3 +1,5 @@
+// The only file of this room that includes the configs of all stages. Everything that depends on
+// their types is compiled here, and used elsewhere through ConfigKind and read_stage_config().
 #include "pipeline/plan/effective.hpp"
 
 #include <utility>

@@ -1,3 +1,5 @@
+// Expansion of a pipeline. A node is a vertex of a graph, its sources are the edges; axes propagate
+// along the edges until a node gathers them. A step is a node at one point of its axes.
 #include "pipeline/plan/expand.hpp"
 
 #include <fmt/format.h>
@@ -194,6 +196,7 @@ class Expansion {
 
   // All combinations of the points of some axes. The last axis varies fastest.
   static std::vector<Point> points(const std::vector<const Axis*>& axes) {
+    // Begins with one empty combination; each axis multiplies the list by its number of points.
     std::vector<Point> all{Point{}};
     for (const Axis* axis : axes) {
       std::vector<Point> longer;
@@ -341,6 +344,7 @@ class Expansion {
 std::string member_folder(const Axis& axis, std::size_t point) {
   const std::string& label = axis.points[point].label;
   if (!axis.numbers || label.find('e') != std::string::npos) return axis.name + "_" + label;
+  // Zeros are put between sign and digits, up to the width of the longest label.
   std::size_t width = 3;
   for (const AxisPoint& p : axis.points) width = std::max(width, integer_digits(p.label));
   std::string sign;

@@ -87,6 +87,7 @@ std::optional<Error> error_in_material(const NameReference& a, const SceneNames&
   if (a.what == What::angles && a.number != *families)
     return Error{a.place, a.key, fmt::format("found {} angles", a.number),
                  fmt::format("{}, one for each fibre family of the material", *families), ""};
+  // A quantity of a family exists if any body has that many families.
   const std::size_t most = std::max(*families, names.more_families);
   if (a.what != What::family || a.number <= most) return std::nullopt;
   if (most == 0)
@@ -114,6 +115,7 @@ SceneNames names_in(const MeshConfig& config) {
   SceneNames names;
   if (std::holds_alternative<FromFile>(config.geometry)) return names;
   MeshNames mesh;
+  // The sides of a block always exist; other sets and points come from the config.
   for (const std::string& side : side_names())
     if (!is_section(config.geometry) || (side != "z_min" && side != "z_max"))
       mesh.sets.push_back(side);

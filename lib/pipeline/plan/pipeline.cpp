@@ -1,3 +1,6 @@
+// Reads a pipeline file. Its keys depend on the stages (ports are keys of a node), so it is not
+// described by a listing of fields as other configs are, but read by hand; pipeline_schema.cpp has
+// the same rules for editors.
 #include "pipeline/plan/pipeline.hpp"
 
 #include <fmt/format.h>
@@ -228,6 +231,7 @@ class PipelineParser {
     a.place = tree.place;
     if (!is_name(name)) bad_name(tree.place, path, name);
     if (!is_map(tree, path)) return a;
+    // The kind of an axis follows from its key.
     if (const Tree* variants = tree.find("variants")) {
       known_keys(tree, path, {"variants"});
       points_of_variants(*variants, path + ".variants", a);
@@ -298,6 +302,7 @@ class PipelineParser {
         f.say(given.place, here, "found " + description(given), "a list of values");
         continue;
       }
+      // Checked before the points are made: their number is a product.
       if (a.points.size() * given.list.size() > most)
         return f.say(tree.place, path, "more than 10000 combinations", "10000 at most",
                      "fewer values");

@@ -1,3 +1,5 @@
+// Planning in four parts: the pipeline is read and expanded into steps; the config and the inputs
+// of each step are checked; all errors are reported at once; only then are files written.
 #include "pipeline/plan/plan.hpp"
 
 #include <fmt/format.h>

@@ -7,6 +7,8 @@ namespace {
 // A stage: name, first sentence of --help, input ports, main output file.
 const StageSpec mesh_stage{
     "mesh", "Makes a mesh with named sets and local fibre frames.", {}, "mesh.h5"};
+// A fit reads measured curves from files that its config names. Curves of simulated scenes, for
+// tests of the method, come from langer-post instead.
 const StageSpec fit_stage{
     "fit",
     "Finds material parameters from a measured curve.",
@@ -16,10 +18,12 @@ const StageSpec fit_stage{
       .required = false,
       .several = true}},
     "material.h5"};
+// Members of a sweep over {samples: n} begin with this stage: each has another set of parameters.
 const StageSpec sample_stage{"sample",
                              "Draws one sample of the parameters from the covariance of a fit.",
                              {{.name = "material", .says = "the fit", .made_by = {"fit"}}},
                              "material.h5"};
+// Works on the material alone: it needs no mesh and no solution.
 const StageSpec sensitivity_stage{"sensitivity",
                                   "Ranks material parameters: one at a time, by Morris, by Sobol.",
                                   {{.name = "material",
@@ -27,6 +31,8 @@ const StageSpec sensitivity_stage{"sensitivity",
                                     .made_by = {"fit"},
                                     .takes_yaml = true}},
                                   "sensitivity.h5"};
+// Mesh and material may be keys of the config, so a scene can be one file. The port `mirror` is
+// filled by langer-plan (siblings.hpp).
 const StageSpec solve_stage{
     "solve",
     "Finds equilibrium along a load path.",
@@ -47,6 +53,7 @@ const StageSpec solve_stage{
       .required = false}},
     "solution.h5",
     true};
+// A solution has all that post needs: mesh, material, config and every step.
 const StageSpec post_stage{
     "post",
     "Turns a solution into fields and curves.",
@@ -55,6 +62,8 @@ const StageSpec post_stage{
     false,
     "only writes the solved scene for another program: scene.inp for CalculiX, scene.feb for "
     "FEBio 4; may be repeated, and needs --solution only"};
+// Gathers files of any stage with a summary. Its port is called curves, because members are mostly
+// curves.h5.
 const StageSpec gather_stage{"gather",
                              "Collects one quantity or several over a sweep.",
                              {{.name = "curves",
@@ -67,6 +76,7 @@ const StageSpec gather_stage{"gather",
                                .made_by = {"fit"},
                                .required = false}},
                              "sweep.h5"};
+// All ports are optional: a report shows what a run has.
 const StageSpec report_stage{
     "report",
     "Writes a report on a run: one page that opens offline.",
@@ -97,6 +107,7 @@ const StageSpec report_stage{
       .required = false,
       .several = true}},
     "report.html"};
+// The members are solutions of one scene with different meshes, increments or solvers.
 const StageSpec tune_stage{
     "tune",
     "Draws the work-precision diagram of a refinement study: which settings give the smallest "

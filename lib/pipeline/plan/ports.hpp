@@ -1,5 +1,9 @@
 // The stages, and the input and output files of each. This one table is used by the arguments of
 // the programs, by plan, by the JSON Schema of pipelines and by the docs.
+//
+// A stage reads its files at ports and writes one main output, whose name is the same in every run:
+// langer-solve reads mesh.h5 at --mesh and writes solution.h5. A pipeline connects the output of
+// one node with a port of another, and the table states which stages fit to which port.
 #pragma once
 
 #include <string>

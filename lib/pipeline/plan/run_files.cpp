@@ -73,6 +73,7 @@ void check_output(const std::string& output, const std::string& config, const In
     if (ec) reason = ": " + ec.message();
     refuse(folder.string(), "this folder cannot be made" + reason);
   }
+  // A file in the folder is written under another name and then renamed, which needs both rights.
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     refuse(folder.string(), "this folder cannot be written to");
 }

@@ -1,3 +1,5 @@
+// Scripts for Slurm. Each job calls make for one output, so that all rules of the Makefile apply: a
+// step that is up to date ends at once, and a killed one continues.
 #include "pipeline/plan/slurm.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Effects of a design as text. All tables and charts take their numbers from values(), so a method
+// that a design lacks is missing everywhere in the same way.
 #include "pipeline/sweep/design_tables.hpp"
 
 #include <fmt/format.h>
@@ -75,6 +77,7 @@ Bars bars_of(const Design& design, const QuantityEffects& e,
   Bars b;
   const auto k = static_cast<Eigen::Index>(design.parameters.size());
   const auto n = static_cast<Eigen::Index>(series.size());
+  // A value without an interval has an error bar of length 0.
   b.values = b.low = b.high = MatX::Constant(n, k, none);
   for (const DesignParameter& p : design.parameters) b.groups.push_back(short_name(p));
   for (Eigen::Index s = 0; s < n; ++s) {

@@ -53,6 +53,7 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
                                        fmt::format("{} as in {}", c.unit, first->path),
                                        ""});
   }
+  // A column of gaps only would hide a misspelt name.
   if (!first) {
     const std::vector<std::string> known = all_names(members);
     const std::string near = nearest(name, known);

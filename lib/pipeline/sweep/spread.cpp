@@ -1,3 +1,5 @@
+// Statistics over the members of a sweep that samples fitted parameters. The formulas are those of
+// samples: n - 1 in variances, and percentiles by interpolation between ordered values.
 #include "pipeline/sweep/spread.hpp"
 
 #include <fmt/format.h>
@@ -37,6 +39,7 @@ double percentile(std::vector<double> v, double part) {
 // The value of a curve at x = `at`, linear between its rows, constant beyond them.
 double interpolate(const Column& x, const Column& y, double at) {
   const std::size_t n = std::min(x.values.size(), y.values.size());
+  // The first pair of rows with x between them; x need not rise, as in a cycle.
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double a = x.values[i];
     const double b = x.values[i + 1];
@@ -100,6 +103,7 @@ Spread spread_of(const SweepColumn& column, const std::vector<SweepColumn>& para
   std::vector<std::size_t> rows;  // members that have the quantity
   for (std::size_t i = 0; i < column.values.size(); ++i)
     if (std::isfinite(column.values[i])) rows.push_back(i);
+  // A spread of less than two values is not defined.
   const double none = std::nan("");
   Spread spread{column.name, column.unit, none, none, none, none};
   if (rows.size() < 2) return spread;

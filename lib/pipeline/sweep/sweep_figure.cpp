@@ -226,6 +226,7 @@ class Drawer {
 
   // x is an axis of the sweep. Members that differ in this axis only are the points of one line.
   void over_axis(std::size_t axis) {
+    // Lines are found by the values on the other axes, in the order of the members.
     std::vector<std::vector<std::string>> others;  // values on the other axes, one for each line
     for (const SweepMember& m : members_) {
       const auto rest = without(m.at, axis);

@@ -1,3 +1,5 @@
+// Writes sweep.h5, the file of langer-gather and langer-tune. Its layout is in the header and in
+// docs/schema.md; readers are the report, `langer show` and the package for Python.
 #include "pipeline/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>

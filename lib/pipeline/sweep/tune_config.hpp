@@ -1,4 +1,9 @@
-// Config of tune. `axes` and `members` are written by plan.
+// Config of tune, which draws work-precision diagrams. `axes` and `members` are written by plan.
+//
+// The error of a level is the difference from a reference, and the reference must be more accurate
+// than all levels. Three kinds are possible: a member with a much finer mesh, the extrapolation of
+// several members with a known order of convergence, or Richardson's extrapolation of three
+// members.
 #pragma once
 
 #include "pipeline/sweep/gather_config.hpp"
@@ -40,6 +45,7 @@ struct FittedLimit {
     v(&FittedLimit::order, "order", unit::none, "order of convergence: power of the mesh size",
       Range{0, 10, false, true});
   }
+  // A line through two points has no residual, so the uncertainty of its limit would be unknown.
   std::vector<Complaint> complaints() const {
     if (members.size() < 3)
       return {{"members", std::to_string(members.size()) + " members",
@@ -63,6 +69,7 @@ struct TuneReference {
     v(&TuneReference::richardson, "richardson", unit::none,
       "or the limit of three members, with the order of convergence that they show");
   }
+  // Exactly one of the three keys.
   std::vector<Complaint> complaints() const {
     const int given = !member.empty() + fitted.has_value() + richardson.has_value();
     if (given == 1) return {};
