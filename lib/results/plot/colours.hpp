@@ -1,7 +1,7 @@
-// Colours of values. All maps grow in lightness from end to end, so that they read in grey and for
-// colour-blind readers.
+// Colours of values. Every map grows in lightness from end to end, so that it can be read in print
+// without colour and by colour-blind readers.
 //   a scale       from 0 to 1
-//   signed        from -1 over 0, almost white, to 1; lightness falls on both sides
+//   signed        from -1 over 0, almost white, to 1; the lightness falls on both sides
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ struct Colour {
 };
 std::string hex(const Colour& colour);     // "#rrggbb"
 double lightness(const Colour& colour);    // CIE L*, 0 to 100
-int colour_byte(double part);              // 0 to 255
+int colour_byte(double part);              // of a part from 0 to 1; 0 to 255
 Colour shaded(const Colour& c, double s);  // darker by a factor
 
-// violet_yellow is computed in CIE LCh; viridis and cividis go straight between ten of their
-// colours.
+// violet_yellow is computed in CIE LCh. viridis and cividis are interpolated linearly between ten
+// colours of the published maps.
 enum class ColourMap { violet_yellow, viridis, cividis, grey };
 constexpr auto names(ColourMap) {
   return std::array{"violet_yellow", "viridis", "cividis", "grey"};

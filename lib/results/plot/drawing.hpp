@@ -1,6 +1,9 @@
-// A drawing on a page: filled polygons, lines and texts in the order of painting. Written as SVG,
-// and as a gnuplot script that makes the PNG, so that both show the same. Lengths in points, x to
-// the right, y downwards from the top left corner.
+// A drawing on a page: filled polygons, lines and texts in the order of painting.
+//
+// The same drawing is written as SVG and as a gnuplot script. gnuplot makes PNG, PDF and EPS from
+// the script, so that all formats show the same. Lengths are in units of the page: x to the right,
+// y downwards from the top left corner. FigureStyle::drawing_unit() says how large a unit is on
+// paper.
 #pragma once
 
 #include <array>
@@ -19,8 +22,8 @@ using PagePoint = std::array<double, 2>;
 struct Patch {
   std::vector<PagePoint> corners;
   Colour fill;
-  double hem =
-      0;  // width of a border of the same colour: neighbours with it show no seam between them
+  // Width of a border of the same colour. It covers the seam that viewers show between neighbours.
+  double border_width = 0;
 };
 struct Stroke {
   std::vector<PagePoint> points;  // two, or a closed line
@@ -32,10 +35,10 @@ struct Label {
   std::string text;
   double size = 14;
   enum class Anchor { start, middle, end } anchor = Anchor::start;
-  bool enhanced = false;  // with gnuplot's marks, as σ_{xx}: shown as subscripts
-  bool white = false;     // instead of black: on dark ground
+  bool enhanced = false;  // gnuplot's marks, as in σ_{xx}, are shown as subscripts
+  bool white = false;     // for dark ground; otherwise black
   double turned = 0;      // degrees, counter-clockwise about `at`
-  bool own = false;       // words of the config: their numbers keep their decimal sign
+  bool own = false;       // a text of the config, whose numbers keep their decimal sign
 };
 
 struct Drawing {
@@ -43,32 +46,33 @@ struct Drawing {
   std::vector<std::variant<Patch, Stroke, Label>> marks;
 };
 
-// What a drawing takes from the style of the figures.
+// The settings of FigureStyle that change how a drawing is laid out.
 struct Look {
-  static constexpr double number_size = 13;  // units of a page that numbers and labels are high
+  static constexpr double number_size = 13;  // height of numbers and labels in units of the page
   ColourMap colours = ColourMap::violet_yellow;
   SignedColours signed_colours = SignedColours::blue_red;
-  std::optional<double> width;  // of the page; none: what the drawing likes
+  std::optional<double> width;  // of the page; none: the default of the drawing
   bool titles = true;
 };
 
 struct FigureStyle;
 std::string svg(const Drawing& drawing, const FigureStyle& style);
-// writes <name>.png, .pdf and .eps, as far as the style wants them, when run by gnuplot
+// A script that writes <name>.png, .pdf and .eps, those of them that the style lists.
 std::string gnuplot_script(const Drawing& drawing, const std::string& name,
                            const FigureStyle& style);
 
-// 0.5 as 0,5: points between digits only
+// The text with another decimal sign: 0.5 becomes 0,5. Only points between digits are replaced.
 std::string with_decimal(const std::string& text, DecimalSign sign);
-double text_width(const std::string& text, double size);  // about, of enhanced or plain text
-// Enhanced text that ends at a place, in as many lines upwards as its words need to be no wider
-// than `room`.
+// Estimated width of enhanced or plain text: 0.6 of the size for each letter.
+double text_width(const std::string& text, double size);
+// Adds enhanced text whose last line ends at a place. It is broken into lines, stacked upwards, so
+// that none is wider than `room` if its words allow.
 void add_lines_above(Drawing& drawing, const PagePoint& end, const std::string& text, double size,
                      double room);
 
-// Round numbers from low to high, about `wished` of them, and their texts with as many digits as
-// the steps need.
+// Round numbers from low to high, about `wished` of them.
 std::vector<double> ticks(double low, double high, int wished = 5);
+// Their texts, with as many digits as the steps need.
 std::vector<std::string> tick_texts(const std::vector<double>& ticks);
 
 }  // namespace langer

@@ -12,8 +12,10 @@ namespace {
 
 using namespace map_parts;
 
+// The range of coordinates. A range without width is widened by 0.5 on both sides.
 struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   explicit Extent(const std::vector<double>& all) {
     for (double one : all) {
       low = std::min(low, one);
@@ -27,22 +29,27 @@ struct Extent {
   double size() const { return high - low; }
 };
 
-// Where the places of a panel are drawn; y upwards, as long as x.
+// Where the places of a panel are drawn. y points upwards and has the scale of x unless the panel
+// would become too flat or too high.
 struct Panel {
   Extent x, y;
-  double left = 90, top = 0, width = 500, height = 0, side = 0;  // side: of a square
+  double left = 90;
+  double top = 0;
+  double width = 500;
+  double height = 0;
+  double side = 0;  // of a square
   Panel(const FieldMap& map, double begin) : x(map.x), y(map.y), top(begin) {
     height = std::clamp(width * y.size() / x.size(), 60.0, 500.0);
-    // as large as places have room, on the average
-    side = std::clamp(
-        std::sqrt(width * height / static_cast<double>(std::max<std::size_t>(map.x.size(), 1))),
-        3.0, 24.0);
+    // The squares together cover about the area of the panel.
+    const double n = static_cast<double>(std::max<std::size_t>(map.x.size(), 1));
+    side = std::clamp(std::sqrt(width * height / n), 3.0, 24.0);
   }
   double x_of(double value) const { return left + width * (value - x.low) / x.size(); }
   double y_of(double value) const { return top + height * (1 - (value - y.low) / y.size()); }
   double bottom() const { return top + height + side / 2; }
 };
 
+// Draws the numbers of both axes; the x axis is shown below the last panel only.
 void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
   const double left = p.left - p.side / 2 - 4;
   std::vector<double> at = ticks(p.y.low, p.y.high);
@@ -63,6 +70,7 @@ void add_axes(Drawing& d, const FieldMap& map, const Panel& p, bool last) {
   d.marks.push_back(label(p.left + p.width / 2, p.bottom() + 44, map.x_label));
 }
 
+// Draws the colours from -limit to limit at the right of a panel.
 void add_scale(Drawing& d, const Panel& p, const FieldPanel& panel) {
   constexpr int cells = 20;
   const double x = p.left + p.width + p.side / 2 + 18;
@@ -102,7 +110,8 @@ Drawing field_map(const FieldMap& map) {
     const bool last = k + 1 == map.panels.size();
     add_axes(d, map, p, last);
     add_scale(d, p, panel);
-    top = p.bottom() + (last ? 60 : 44);
+    top = p.bottom() + 44;
+    if (last) top += 16;
   }
   d.height = top;
   return d;

@@ -1,5 +1,5 @@
-// Values at places on a plane as coloured squares, in panels one below the other: what was measured
-// there, what was found, how they differ. Panels of one limit have one scale.
+// Values at places of a plane as coloured squares, in panels one below the other: measured values,
+// computed values and their difference. Panels with the same limit have the same scale.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace langer {
 
 struct FieldPanel {
   std::string title;
-  std::vector<double> values;  // of each place; NaN: grey
+  std::vector<double> values;  // one for each place; NaN is grey
   double limit = 1;            // colours from -limit to limit: blue below zero, red above
 };
 

@@ -1,9 +1,10 @@
 // How all figures of a stage are made: one listing, `figure_style` in the configs of post, fit,
 // gather, sensitivity and tune.
-//   figure_style: {width: 85, font: Liberation Sans, font_size: 8, dpi: 600, decimal: comma, formats: [pdf, eps]}
-// Without width and font_size a figure is made for the screen, 96 points to the inch. With them it
-// is laid out anew for that width, so that its texts have that size on paper; nothing is scaled
-// down.
+//   figure_style: {width: 85, font: Liberation Sans, font_size: 8, dpi: 600, decimal: comma,
+//                  formats: [pdf, eps]}
+// Without width and font_size a figure is made for a screen of 96 points to the inch. With them the
+// figure is laid out for that width, so that its texts have that size on paper. Nothing is scaled
+// afterwards, because that would also scale the texts.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +20,10 @@ namespace langer {
 
 enum class PictureFormat { svg, png, pdf, eps };
 constexpr auto names(PictureFormat) { return std::array{"svg", "png", "pdf", "eps"}; }
+// The word of a format, which is also the ending of its files.
+constexpr const char* word_of(PictureFormat format) {
+  return names(format)[static_cast<std::size_t>(format)];
+}
 
 struct FigureStyle {
   std::optional<double> width, height, font_size;
@@ -31,7 +36,7 @@ struct FigureStyle {
   std::vector<PictureFormat> formats{PictureFormat::svg, PictureFormat::png};
   static void fields(auto& v) {
     v(&FigureStyle::width, "width", unit::mm,
-      "of each figure on paper, such as 85 for a column; none: as large as fits a screen",
+      "of each figure on paper, such as 85 for a column; none: a size for the screen",
       between(30, 1000));
     v(&FigureStyle::height, "height", unit::mm, "of x-y figures; none: two thirds of the width",
       between(20, 1000));
@@ -48,21 +53,22 @@ struct FigureStyle {
     v(&FigureStyle::titles, "titles", unit::none,
       "false: without the titles above figures, which journals put into captions");
     v(&FigureStyle::formats, "formats", unit::none,
-      "files of each figure; the script beside them makes all of these but the SVG");
+      "files of each figure; the script in the same folder makes all of these but the SVG");
   }
   std::vector<Complaint> complaints() const;
 
   bool on_paper() const { return width || font_size; }
-  double width_mm() const {
-    return width.value_or(190.5);
-  }  // of x-y figures on a screen: 720 points
+  // Width of x-y figures; on a screen 190.5 mm are 720 pixels.
+  double width_mm() const { return width.value_or(190.5); }
+  // Size of the numbers in points of 1/72 inch.
   double points() const {
-    return font_size.value_or(on_paper() ? 8 : 10.5);
-  }  // of numbers, 1/72 inch
+    if (on_paper()) return font_size.value_or(8);
+    return 10.5;
+  }
   bool wants(PictureFormat format) const {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   }
-  // of drawings: a unit of the page in 1/72 inch
+  // The size of a unit of a drawing's page in 1/72 inch.
   double drawing_unit() const {
     if (on_paper()) return points() / Look::number_size;
     return 0.75;

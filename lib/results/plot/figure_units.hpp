@@ -5,18 +5,12 @@
 
 namespace langer {
 
-// "travel (mm)", "angle (°)"; the label alone where the unit is -
+// "travel (mm)", "angle (°)"; the label alone if the unit is -
 inline std::string with_unit(const std::string& label, const std::string& unit) {
-  std::string sign;
-  if (unit == "deg") {
-    sign = "°";
-  } else if (unit == "percent") {
-    sign = "%";
-  } else {
-    sign = unit;
-  }
   if (unit == "-") return label;
-  return label + " (" + sign + ")";
+  if (unit == "deg") return label + " (°)";
+  if (unit == "percent") return label + " (%)";
+  return label + " (" + unit + ")";
 }
 
 }  // namespace langer

@@ -22,6 +22,7 @@
 #include "core/base/error.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/printable.hpp"
+#include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
 #include "results/plot/figure_style.hpp"
 
@@ -33,12 +34,12 @@ constexpr std::array colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                              "#E69F00", "#56B4E9", "#000000"};
 constexpr std::array markers{7, 5, 8, 10, 12, 6, 4};
 constexpr std::array open_markers{6, 4, 8, 10, 12};
-constexpr std::array dashes{1, 1, 2, 2,
-                            4, 4, 5};  // of two curves that coincide both colours are seen
-constexpr int most_markers = 25;       // on a line
-constexpr std::chrono::seconds longest{120};
+// Every second line is dashed, so that both colours are seen where two curves coincide.
+constexpr std::array dashes{1, 1, 2, 2, 4, 4, 5};
+constexpr int most_markers = 25;  // on a line
+constexpr std::chrono::seconds time_limit{120};
 
-// the end of a file, for messages
+// The last line of a file that is more than spaces and carets: gnuplot's error message.
 std::string last_line(const std::string& path) {
   std::ifstream file(path);
   std::string last;
@@ -47,7 +48,8 @@ std::string last_line(const std::string& path) {
   return last;
 }
 
-// spaces that stay: SVG viewers drop a space beside a subscript
+// A text of a figure with spaces that cannot be dropped: SVG viewers drop a space next to a
+// subscript.
 std::string printed(const std::string& text) {
   std::string s;
   for (char c : text) {
@@ -76,9 +78,10 @@ std::string gnuplot_string(const std::string& text) {
 }
 
 std::string gnuplot_file(const std::string& name) {
-  const bool plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) ||
-                                       std::strchr("_./", name[0]));
-  return gnuplot_string(plain ? name : "./" + name);
+  const bool is_safe = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) ||
+                                         std::strchr("_./", name[0]));
+  if (is_safe) return gnuplot_string(name);
+  return gnuplot_string("./" + name);
 }
 
 std::string literal(const std::string& name) {
@@ -99,27 +102,18 @@ std::string plain(const std::string& text) {
 
 namespace {
 
-double small(const FigureStyle& style) {
-  return 0.86 * style.points();
-}  // of words within a figure
+// Size of words within a figure.
+double small_size(const FigureStyle& style) { return 0.86 * style.points(); }
 
-// what `plot` draws of one line: a band, the line itself, bars and names
-std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i,
-                      const FigureStyle& style) {
+// The arguments of `plot` for line i: its error band, the line itself, its bars and its names.
+std::string plot_arguments(const Plot& plot, const PlotLine& line, std::size_t i,
+                           const FigureStyle& style) {
   const int every = std::max(1, (plot.rows + most_markers - 1) / most_markers);
-  std::size_t colour = 0;
-  if (line.colour < 0) {
-    colour = i;
-  } else {
-    colour = static_cast<std::size_t>(line.colour);
-  }
-  // lines beyond the last colour begin with other dashes
-  std::size_t dash = 0;
-  if (line.dash < 0) {
-    dash = i + i / colours.size();
-  } else {
-    dash = static_cast<std::size_t>(line.dash) * 2;
-  }
+  std::size_t colour = i;
+  if (line.colour >= 0) colour = static_cast<std::size_t>(line.colour);
+  // Lines after the last colour begin the colours again, with other dashes.
+  std::size_t dash = i + i / colours.size();
+  if (line.dash >= 0) dash = static_cast<std::size_t>(line.dash) * 2;
   const char* const rgb = colours[colour % colours.size()];
   const std::string file = gnuplot_file(line.csv);
   const std::string x = gnuplot_string(line.x);
@@ -127,7 +121,8 @@ std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i,
   std::string s;
   if (!line.error.empty())
     s += fmt::format(
-        "{0} using (column({1})):(column({2})-column({3})):(column({2})+column({3})) with filledcurves fs transparent solid 0.2 "
+        "{0} using (column({1})):(column({2})-column({3})):(column({2})+column({3})) with "
+        "filledcurves fs transparent solid 0.2 "
         "noborder lc rgb '{4}' notitle, \\\n     ",
         file, x, y, gnuplot_string(line.error), rgb);
   s += fmt::format("{} using {}:{}", file, x, y);
@@ -137,39 +132,47 @@ std::string pieces_of(const Plot& plot, const PlotLine& line, std::size_t i,
   else
     s += fmt::format(" with linespoints lw 2 lc rgb '{}' dt {} pt {} ps 0.6 pi {}", rgb,
                      dashes[dash % dashes.size()], markers[dash % markers.size()], every);
-  s += fmt::format(" title {}",
-                   printed(line.values ? with_decimal(line.legend, style.decimal) : line.legend));
+  std::string legend = line.legend;
+  if (line.values) legend = with_decimal(legend, style.decimal);
+  s += fmt::format(" title {}", printed(legend));
   if (!line.low.empty())
     s +=
         fmt::format(", \\\n     {} using {}:{}:{}:{} with yerrorbars lw 1 lc rgb '{}' pt 0 notitle",
                     file, x, y, gnuplot_string(line.low), gnuplot_string(line.high), rgb);
   if (!line.names.empty())
     s += fmt::format(
-        ", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',{:.3g}' tc rgb '#555555' notitle",
-        file, x, y, gnuplot_string(line.names), small(style));
+        ", \\\n     {} using {}:{}:{} with labels noenhanced left offset 0.6,0.4 font ',{:.3g}' tc "
+        "rgb '#555555' notitle",
+        file, x, y, gnuplot_string(line.names), small_size(style));
   return s;
 }
 
-std::string frame_of(const Plot& plot, const FigureStyle& style) {
+const char* logarithmic_axes(AxisScale scale) {
+  if (scale == AxisScale::log) return "xy";
+  if (scale == AxisScale::log_x) return "x";
+  return "y";
+}
+
+// Commands for everything around the curves: axes, title, labels, marks and notes.
+std::string frame_commands(const Plot& plot, const FigureStyle& style) {
   std::string s = "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n";
   if (style.decimal == DecimalSign::comma) s += "set decimalsign ','\n";
-  s +=
-      "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb '#d8d8d8'\n";
+  s += "set border 3 lw 1.2\nset tics nomirror out scale 0.7\nset grid lt 1 lw 0.5 lc rgb "
+       "'#d8d8d8'\n";
   s += "set key outside center top horizontal reverse Left samplen 3\n";
   if (plot.lines.size() == 1) s += "unset key\n";
   if (!plot.title.empty() && style.titles) s += fmt::format("set title {}\n", printed(plot.title));
   s += fmt::format("set xlabel {}\nset ylabel {}\n", printed(plot.x_label), printed(plot.y_label));
   if (plot.scale != AxisScale::linear)
-    s += fmt::format("set logscale {}\n", plot.scale == AxisScale::log     ? "xy"
-                                          : plot.scale == AxisScale::log_x ? "x"
-                                                                           : "y");
+    s += fmt::format("set logscale {}\n", logarithmic_axes(plot.scale));
   if (plot.x_step > 0) s += fmt::format("set xtics {}\n", plot.x_step);
   if (plot.y_most) s += fmt::format("set yrange [*:*<{:g}]\n", *plot.y_most);
   for (const PlotMark& mark : plot.marks)
     s += fmt::format(
         "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 2 lc rgb '#555555'\n"
-        "set label {1} at graph 0.99, first {0:g} right offset 0,0.6 font ',{2:.3g}' tc rgb '#555555'\n",
-        mark.y, printed(with_decimal(mark.text, style.decimal)), small(style));
+        "set label {1} at graph 0.99, first {0:g} right offset 0,0.6 font ',{2:.3g}' tc rgb "
+        "'#555555'\n",
+        mark.y, printed(with_decimal(mark.text, style.decimal)), small_size(style));
   if (plot.notes.empty()) return s;
   s += "set rmargin at screen 0.66\n";
   const double step = std::min(0.052, 0.84 / static_cast<double>(plot.notes.size()));
@@ -177,11 +180,11 @@ std::string frame_of(const Plot& plot, const FigureStyle& style) {
     s += fmt::format(
         "set label {} at screen 0.68,{:.4f} noenhanced font ',{:.3g}' tc rgb '#333333'\n",
         printed(with_decimal(plot.notes[i], style.decimal)), 0.88 - step * static_cast<double>(i),
-        small(style));
+        small_size(style));
   return s;
 }
 
-// A label whose unit takes a factor, as a gnuplot expression of its exponent e: energy (N mm)
+// A label whose unit gets a factor, as a gnuplot expression of its exponent e: energy (N mm)
 // becomes energy (10^{-4} N mm).
 std::string with_factor(const std::string& label, bool is_unit) {
   std::size_t unit = std::string::npos;
@@ -192,22 +195,31 @@ std::string with_factor(const std::string& label, bool is_unit) {
   return printed(label.substr(0, unit + 1)) + factor + printed(" " + label.substr(unit + 1));
 }
 
-// gnuplot writes 0.0001 beside 5×10^{-5} on one axis, and 800000 beside 10^6. Only after a plot
-// does it know the ends of an axis, which therefore is drawn once for nobody; one with such numbers
-// then takes a common factor. All others stay as gnuplot makes them.
-std::string factors_of(const Plot& plot, const std::string& draw) {
+// Commands that give an axis a common factor. On one axis gnuplot would otherwise write 0.0001 next
+// to 5×10^{-5}, or 800000 next to 10^6. It knows the ends of an axis only after a plot, so the plot
+// is first drawn to /dev/null. Axes without such numbers stay as gnuplot makes them.
+std::string factor_commands(const Plot& plot, const std::string& draw) {
   const bool x =
       plot.x_step == 0 && (plot.scale == AxisScale::linear || plot.scale == AxisScale::log_y);
   const bool y = plot.scale == AxisScale::linear || plot.scale == AxisScale::log_x;
   if (!x && !y) return "";
   std::string s =
-      "# an axis that gnuplot would number as 0.0001 beside 5x10^{-5}, or 800000 beside 10^6, takes a common factor\n";
+      "# an axis that gnuplot would number as 0.0001 and 5x10^{-5}, or 800000 and 10^6, gets a "
+      "common factor\n";
   s += "set terminal dumb\nset output '/dev/null'\n" + draw + "\n";
-  s +=
-      "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > -1e-4))\n";
+  s += "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > "
+       "-1e-4))\n";
   s += "step(r, p) = p * (r < 1.01 * p ? 0.1 : r < 2.01 * p ? 0.2 : r < 4.99 * p ? 0.5 : 1)\n";
   for (const char axis : {'x', 'y'}) {
-    if (!(axis == 'x' ? x : y)) continue;
+    const bool is_x = axis == 'x';
+    if (is_x && !x) continue;
+    if (!is_x && !y) continue;
+    std::string label;
+    if (is_x) {
+      label = with_factor(plot.x_label, false);
+    } else {
+      label = with_factor(plot.y_label, plot.y_label_is_unit);
+    }
     s += fmt::format(
         "a = GPVAL_{0}_MIN; b = GPVAL_{0}_MAX\n"
         "if (mixed(a, b)) {{\n"
@@ -216,47 +228,47 @@ std::string factors_of(const Plot& plot, const std::string& draw) {
         "  set {1}range [a:b]\n"
         "  set {1}label {2}\n"
         "  set {1}tics ()\n"
-        "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add (gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
+        "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add "
+        "(gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
         "}}\n",
-        static_cast<char>(axis - 'x' + 'X'), axis,
-        axis == 'x' ? with_factor(plot.x_label, false)
-                    : with_factor(plot.y_label, plot.y_label_is_unit));
+        static_cast<char>(axis - 'x' + 'X'), axis, label);
   }
   return s;
 }
 
-// one for the screen: sizes that were there before papers were thought of
-std::string terminal_of(PictureFormat format, const FigureStyle& style) {
+// The arguments of `set terminal`. Without a width or a size of the font a PNG has fixed sizes that
+// suit a screen.
+std::string terminal_arguments(PictureFormat format, const FigureStyle& style) {
   const double inches = style.width_mm() / 25.4;
-  double tall = 0;
-  if (style.height) {
-    tall = *style.height / 25.4;
-  } else {
-    tall = inches / 1.5;
-  }
+  double tall = inches / 1.5;
+  if (style.height) tall = *style.height / 25.4;
   const double points = style.points();
   const double thick = points / 10.5;
   const double pixels = style.dpi / 96.0;
-  const std::string font = gnuplot_string(
-      fmt::format("{},{:.4g}", style.font, format == PictureFormat::svg ? points / 0.75 : points));
+  double size = points;
+  if (format == PictureFormat::svg) size = points / 0.75;  // in pixels
+  const std::string font = gnuplot_string(fmt::format("{},{:.4g}", style.font, size));
+  const char* const resizing = style.on_paper() ? "fixed" : "dynamic";
   switch (format) {
     case PictureFormat::svg:
       return fmt::format(
           "svg enhanced size {:.0f},{:.0f} {} font {} linewidth {:.3g} background rgb 'white'",
-          96 * inches, 96 * tall, style.on_paper() ? "fixed" : "dynamic", font, thick);
+          96 * inches, 96 * tall, resizing, font, thick);
     case PictureFormat::png:
       if (style.on_paper())
         return fmt::format(
-            "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} background rgb 'white'",
+            "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:.4g} linewidth {:.4g} "
+            "pointscale {:.4g} background rgb 'white'",
             style.dpi * inches, style.dpi * tall, font, pixels, pixels * thick, pixels * thick);
       return fmt::format(
-          "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:g} linewidth {:g} pointscale {:g} background rgb 'white'",
+          "pngcairo enhanced size {:.0f},{:.0f} font {} fontscale {:g} linewidth {:g} pointscale "
+          "{:g} background rgb 'white'",
           style.dpi * inches, style.dpi * tall, gnuplot_string(style.font + ",13"), pixels, pixels,
           pixels);
     default:
       return fmt::format(
           "{}cairo enhanced size {:.4f}in,{:.4f}in font {} linewidth {:.3g} pointscale {:.3g}",
-          names(format)[static_cast<std::size_t>(format)], inches, tall, font, thick, 0.75 * thick);
+          word_of(format), inches, tall, font, thick, 0.75 * thick);
   }
 }
 
@@ -264,15 +276,15 @@ std::string terminal_of(PictureFormat format, const FigureStyle& style) {
 
 std::string gnuplot_script(const Plot& plot, const std::string& name, const FigureStyle& style) {
   std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) +
-                  frame_of(plot, style);
-  std::string draw = "plot ";
+                  frame_commands(plot, style);
+  std::string lines;
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
-    draw += (i ? ", \\\n     " : "") + pieces_of(plot, plot.lines[i], i, style);
-  s += factors_of(plot, draw);
+    append(lines, ", \\\n     ", plot_arguments(plot, plot.lines[i], i, style));
+  const std::string draw = "plot " + lines;
+  s += factor_commands(plot, draw);
   for (PictureFormat format : style.formats)
-    s += fmt::format("set terminal {}\n{}{}\n", terminal_of(format, style),
-                     gnuplot_output(name + "." + names(format)[static_cast<std::size_t>(format)]),
-                     draw);
+    s += fmt::format("set terminal {}\n{}{}\n", terminal_arguments(format, style),
+                     gnuplot_output(name + "." + word_of(format)), draw);
   return s + "unset output\n";
 }
 
@@ -282,9 +294,9 @@ std::string gnuplot_output(const std::string& file) {
 
 namespace {
 
-// The lines "/CreationDate (D:20260131120000Z)" of a PDF and "%%CreationDate: Sat Jan 31 12:00:00
-// 2026" of an EPS. Cairo takes the time of day for them; both have a fixed length, so another time
-// may be written over them without moving a byte.
+// Overwrites the dates in the lines "/CreationDate (D:20260131120000Z)" of a PDF and
+// "%%CreationDate: Sat Jan 31 12:00:00 2026" of an EPS. Cairo writes the time of day there. Both
+// dates have a fixed length, so another one fits without moving a byte.
 void set_creation_date(std::string& picture, std::time_t epoch) {
   std::tm parts{};
   if (!gmtime_r(&epoch, &parts)) return;
@@ -300,7 +312,7 @@ void set_creation_date(std::string& picture, std::time_t epoch) {
 }
 
 // Runs gnuplot in `folder` and waits for it. Its pictures go to the folder `into` below, its
-// complaints to a log there. Returns what went wrong.
+// messages to a log there. Returns the reason of a failure.
 std::string wait_for_gnuplot(const std::string& folder, const std::string& script,
                              const std::string& into) {
   const std::string log = (std::filesystem::path(folder) / into / "log").string();
@@ -310,9 +322,10 @@ std::string wait_for_gnuplot(const std::string& folder, const std::string& scrip
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   const int log_flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW;
   posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), log_flags, 0644);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.empty() ? "." : folder.c_str());
+  const std::string current = text_or(folder, ".");
+  posix_spawn_file_actions_addchdir_np(&actions, current.c_str());
 
-  // The signals that this program ignores are gnuplot's own business.
+  // gnuplot gets the default reaction to the signals that this program ignores.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t usual;
@@ -336,7 +349,7 @@ std::string wait_for_gnuplot(const std::string& folder, const std::string& scrip
 
   int status = 0;
   pid_t ended = 0;
-  const auto deadline = std::chrono::steady_clock::now() + longest;
+  const auto deadline = std::chrono::steady_clock::now() + time_limit;
   while (ended == 0 && std::chrono::steady_clock::now() < deadline) {
     ended = waitpid(child, &status, WNOHANG);
     if (ended == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -344,7 +357,7 @@ std::string wait_for_gnuplot(const std::string& folder, const std::string& scrip
   if (ended == 0) {
     kill(child, SIGKILL);
     waitpid(child, &status, 0);
-    return fmt::format("gnuplot took longer than {} s", longest.count());
+    return fmt::format("gnuplot took longer than {} s", time_limit.count());
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return "gnuplot: " + last_line(log);
   return "";
@@ -367,8 +380,8 @@ void move_pictures(const std::filesystem::path& folder, const std::filesystem::p
 }  // namespace
 
 std::string run_gnuplot(const std::string& folder, const std::string& script) {
-  // gnuplot opens its pictures as any program does, through links. It gets an empty folder of its
-  // own, where none can lie.
+  // gnuplot opens its pictures as any program does and follows links. In an empty folder of its
+  // own there are no links.
   const std::string into = make_private_folder(folder);
   if (into.empty())
     return fmt::format("gnuplot has no folder to draw in ({})", std::strerror(errno));

@@ -1,6 +1,6 @@
-// How maps (post/map.hpp) are drawn: one panel, or several on one scale.
-//   bands   between round numbers; where the values have both signs white is 0, one colour below and another above
-//   range   values beyond it take a colour of their own, and the colour bar ends in a tip
+// How maps (post/map.hpp) are drawn: one panel, or several with one colour scale.
+//   bands   between round numbers; if the values have both signs, white is 0
+//   range   values beyond it have a colour of their own, and the colour bar ends in a tip
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct MapStyle {
       "half the side of the square shown, around x = z = 0; by default all", positive);
     v(&MapStyle::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");
-    v(&MapStyle::cells, "cells", unit::none, "draw the edges of the cells");
+    v(&MapStyle::cells, "cells", unit::none, "draw the edges of the elements");
     v(&MapStyle::fibres, "fibres", unit::none, "draw the direction of the first fibre family");
     v(&MapStyle::title, "title", unit::none, "above the picture");
   }
@@ -34,7 +34,7 @@ struct MapPanel {
   std::string title;
   const SurfaceMap* map = nullptr;
 };
-// all panels show the same quantity; one colour scale for all
+// All panels show the same quantity, with one colour scale. They fill the page row by row.
 Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns = 1,
                     const Look& look = {});
 

@@ -1,4 +1,4 @@
-// What maps of values and of fields draw alike.
+// Parts of drawings that maps of values and of fields share.
 #pragma once
 
 #include <string>
@@ -9,10 +9,13 @@ namespace langer::map_parts {
 
 constexpr Colour ink{0.15, 0.15, 0.15}, grey{0.8, 0.8, 0.8};
 
-inline Patch box(double x, double y, double w, double h, const Colour& colour, double hem = 0) {
-  return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, colour, hem};
+// A rectangle with its upper left corner at (x, y).
+inline Patch box(double x, double y, double w, double h, const Colour& colour,
+                 double border_width = 0) {
+  return {{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, colour, border_width};
 }
 
+// A text of a drawing, centred at x by default.
 inline Label label(double x, double y, const std::string& text, double size = 13,
                    Label::Anchor anchor = Label::Anchor::middle) {
   return {{x, y}, text, size, anchor};

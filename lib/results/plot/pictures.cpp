@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/base/text.hpp"
 #include "core/hdf5/replace.hpp"
 #include "core/hdf5/seal.hpp"
 #include "results/plot/drawing.hpp"
@@ -9,34 +10,34 @@
 
 namespace langer {
 
-void Pictures::need_places(const std::string& name, bool svg_too) const {
-  std::vector<std::string> types;
-  for (PictureFormat format : style_.formats)
-    if (svg_too || format != PictureFormat::svg)
-      types.push_back(std::string(".") + names(format)[static_cast<std::size_t>(format)]);
-  for (const std::string& type : types)
-    require_replaceable_from(place(name + type), place(name + ".gp"));
+// Refuses a picture whose name belongs to a link, a device or a file that this run reads.
+void Pictures::check_replaceable(const std::string& name, bool script_makes_svg) const {
+  for (PictureFormat format : style_.formats) {
+    if (format == PictureFormat::svg && !script_makes_svg) continue;
+    need_replaceable_from(path_of(name + "." + word_of(format)), path_of(name + ".gp"));
+  }
 }
 
 void Pictures::run(const std::string& name, const std::string& script) {
-  write_text_file(place(name + ".gp"), script);
+  write_text_file(path_of(name + ".gp"), script);
   if (!now_) return;
   const std::string reason = run_gnuplot(folder_, name + ".gp");
-  if (!reason.empty()) failed_[reason] += (failed_[reason].empty() ? "" : ", ") + name;
+  if (!reason.empty()) append(failed_[reason], ", ", name);
 }
 
 void Pictures::draw(const std::string& name, const Plot& plot) {
-  need_places(name, true);
+  check_replaceable(name, true);
   run(name, gnuplot_script(plot, name, style_));
 }
 
 void Pictures::draw(const std::string& name, const Drawing& drawing) {
-  need_places(name, false);
-  if (style_.wants(PictureFormat::svg)) write_text_file(place(name + ".svg"), svg(drawing, style_));
+  check_replaceable(name, false);
+  if (style_.wants(PictureFormat::svg))
+    write_text_file(path_of(name + ".svg"), svg(drawing, style_));
   run(name, gnuplot_script(drawing, name, style_));
 }
 
-std::string Pictures::place(const std::string& file) const {
+std::string Pictures::path_of(const std::string& file) const {
   return (std::filesystem::path(folder_) / file).string();
 }
 

@@ -1,5 +1,6 @@
-// The figures of a stage: their scripts are written beside its output and run; what went wrong is
-// said at the end, each reason once. A figure that cannot be drawn stops nothing.
+// The figures of a stage. Their scripts are written into the folder of its output and run. A figure
+// that cannot be drawn does not stop the stage: failed() collects the reasons, each once, and the
+// stage reports them at its end.
 #pragma once
 
 #include <map>
@@ -14,19 +15,21 @@ struct Plot;
 
 class Pictures {
  public:
-  // now: false leaves the scripts to be run later
+  // now: false writes the scripts without running them
   Pictures(std::string folder, FigureStyle style, bool now = true)
       : folder_(std::move(folder)), style_(std::move(style)), now_(now) {}
-  void draw(const std::string& name, const Plot& plot);  // <name>.gp, which makes the pictures
-  void draw(const std::string& name,
-            const Drawing& drawing);  // <name>.svg at once, the others by its script
+  // Writes <name>.gp, which makes all pictures of an x-y figure.
+  void draw(const std::string& name, const Plot& plot);
+  // Writes <name>.svg at once and <name>.gp, which makes the other pictures.
+  void draw(const std::string& name, const Drawing& drawing);
   Look look() const { return style_.look(); }
-  const std::map<std::string, std::string>& failed() const { return failed_; }  // reason -> names
+  // The names of the figures that could not be drawn, by reason.
+  const std::map<std::string, std::string>& failed() const { return failed_; }
 
  private:
-  void need_places(const std::string& name, bool svg_too) const;
+  void check_replaceable(const std::string& name, bool script_makes_svg) const;
   void run(const std::string& name, const std::string& script);
-  std::string place(const std::string& file) const;
+  std::string path_of(const std::string& file) const;
   std::string folder_;
   FigureStyle style_;
   bool now_;
