@@ -50,7 +50,8 @@ std::string cantilever(const char* cells, const char* divisions) {
          ", geometry: {block: {size: [10, 2, 2], divisions: " + divisions +
          "}}, points: {tip: [10, 2, 2]}}\n"
          "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-4}}}\n"
-         "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, force: {y: 0.004}}]\npath: {steps: 1}\n";
+         "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, force: {y: 0.004}}]\npath: "
+         "{steps: 1}\n";
 }
 
 }  // namespace
@@ -64,7 +65,7 @@ TEST_CASE("patches give polynomials and their gradients exactly, up to the surfa
     if (cubic) mesh = test::raised_block(mesh, type);
     const Body body = test::body(mesh, {test::neo_hooke(0.1, 1e-3)}, usual_formulation(type));
     const Patches patches(body);
-    CHECK(patches.alone() == 0);
+    CHECK(patches.share_without_interior() == 0);
     MatX u(mesh.n_nodes(), 1);
     for (int i = 0; i < mesh.n_nodes(); ++i) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
@@ -81,7 +82,8 @@ TEST_CASE("patches give polynomials and their gradients exactly, up to the surfa
       }
       p.push_back(points);
     }
-    const Patches::Smooth smooth_u = patches.of_nodes(u), smooth_p = patches.of_points(p);
+    const Patches::Smooth smooth_u = patches.fit_nodal_fields(u),
+                          smooth_p = patches.fit_gauss_fields(p);
     double off = 0;
     for (int e = 0; e < mesh.n_cells(); ++e)
       for (int g = 0; g < mesh.cell().n_gauss; ++g) {
@@ -128,7 +130,8 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
 }
 
 TEST_CASE(
-    "the error of an indenter's force is within a factor of two of the true one, and its bar holds it") {
+    "the error of an indenter's force is within a factor of two of the true one, and its bar holds "
+    "it") {
   const auto scene = [](double edge) {
     return test::indentation(test::disc(edge, "hex8"), test::ball(0));
   };
@@ -162,12 +165,14 @@ TEST_CASE("symmetry leaves the errors of reactions and forces as they are") {
       "mesh: {geometry: {block: {size: [4, 4, 4], divisions: [4, 4, 4]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
       "supports: [{on: x_min, hold: [y, z]}, {on: x_max, hold: [y, z]}]\n"
-      "loads: [{on: x_min, displacement: {x: -0.4}}, {on: x_max, displacement: {x: 0.4}}]\npath: {steps: 1}\n";
+      "loads: [{on: x_min, displacement: {x: -0.4}}, {on: x_max, displacement: {x: 0.4}}]\npath: "
+      "{steps: 1}\n";
   const std::string pressed =
       "mesh: {geometry: {block: {origin: [-2, 0, -2], size: [4, 2, 4], divisions: [16, 6, 16]}}}\n"
       "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-2}}}\n"
       "supports: [{on: bottom, hold: [x, y, z]}]\n"
-      "contacts: {ball: {on: top, rigid: {sphere: {radius: 2, centre: [0, 4, 0]}}, motion: [{t: 1, to: [0, -0.4, 0]}]}}\n"
+      "contacts: {ball: {on: top, rigid: {sphere: {radius: 2, centre: [0, 4, 0]}}, motion: [{t: 1, "
+      "to: [0, -0.4, 0]}]}}\n"
       "path: {steps: 2}\n";
   for (const std::string& scene : {pulled, pressed}) {
     CAPTURE(scene);

@@ -54,13 +54,13 @@ class ErrorOfCells {
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index k = 0; k < fields; ++k)
         u.block<1, 3>(i, 3 * k) = nodal(k)[static_cast<std::size_t>(i)].transpose();
-    u_ = patches_.of_nodes(u);
+    u_ = patches_.fit_nodal_fields(u);
     std::vector<MatX> p;
     for (int e = 0; e < mesh_.n_cells(); ++e) {
       modes_.push_back(modes(e));
       p.push_back(pressures_of(e));
     }
-    p_ = patches_.of_points(p);
+    p_ = patches_.fit_gauss_fields(p);
     scale_.assign(duals.size(), 0);
     for (int e = 0; e < mesh_.n_cells(); ++e)
       for (std::size_t k = 0; k < duals.size(); ++k)
@@ -72,7 +72,7 @@ class ErrorOfCells {
   }
 
   double step(std::size_t dual) const { return small_strain / std::max(scale_[dual], 1e-300); }
-  double alone() const { return patches_.alone(); }
+  double alone() const { return patches_.share_without_interior(); }
 
   // of each dual solution, at each Gauss point: derivative of the error's energy
   std::vector<PointError> at(int e, int g, double share) const {

@@ -91,6 +91,8 @@ MapEnd map_end(SignedColours colours, bool below_zero) {
 
 }  // namespace
 
+// All maps have the lightness L = 22 + 70 s or come close to it, so that they also work without
+// colour.
 Colour scale_colour(double position, ColourMap map) {
   const double s = std::clamp(position, 0.0, 1.0);
   if (map == ColourMap::viridis) return interpolated(viridis, s);
@@ -104,6 +106,7 @@ Colour scale_colour(double position, ColourMap map) {
   return lch_colour(L, C, h);
 }
 
+// The lightness falls from 96 at zero to 34 at both ends.
 Colour signed_colour(double position, SignedColours colours) {
   const double s = std::clamp(std::abs(position), 0.0, 1.0);
   const MapEnd end = map_end(colours, position < 0);

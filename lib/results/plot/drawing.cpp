@@ -83,6 +83,7 @@ std::string with_subscripts(const Label& label) {
   return s;
 }
 
+// The points of a polygon as SVG writes them: "x,y x,y".
 std::string points_text(const std::vector<PagePoint>& points) {
   std::string s;
   for (const PagePoint& p : points) append(s, " ", fmt::format("{:.2f},{:.2f}", p[0], p[1]));
@@ -139,6 +140,8 @@ struct GnuplotWriter {
   std::string polygons = {};
   std::string labels = {};
 
+  // Adds a polygon. gnuplot's y axis points upwards, and its colours are one number with
+  // transparency, red, green and blue.
   void polygon(const std::vector<PagePoint>& corners, const Colour& c, double opacity) {
     const unsigned colour = colour_byte(1 - opacity) << 24 | colour_byte(c.r) << 16 |
                             colour_byte(c.g) << 8 | colour_byte(c.b);
@@ -245,6 +248,8 @@ void add_lines_above(Drawing& drawing, const PagePoint& end, const std::string& 
   }
 }
 
+// On paper the size of the picture is in mm, so that programs of text processing place it in its
+// true size. The coordinates inside are in units of the page.
 std::string svg(const Drawing& drawing, const FigureStyle& style) {
   // On a screen the size is in pixels, one for each unit of the page.
   std::string unit;

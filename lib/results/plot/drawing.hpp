@@ -19,17 +19,20 @@ namespace langer {
 
 using PagePoint = std::array<double, 2>;
 
+// A filled polygon.
 struct Patch {
   std::vector<PagePoint> corners;
   Colour fill;
   // Width of a border of the same colour. It covers the seam that viewers show between neighbours.
   double border_width = 0;
 };
+// A line with a width; corners are round.
 struct Stroke {
   std::vector<PagePoint> points;  // two, or a closed line
   Colour colour;
   double width = 1, opacity = 1;
 };
+// A text at a place: its base line begins, is centred or ends there.
 struct Label {
   PagePoint at;
   std::string text;
@@ -41,6 +44,7 @@ struct Label {
   bool own = false;       // a text of the config, whose numbers keep their decimal sign
 };
 
+// The page and its marks, which cover each other in their order.
 struct Drawing {
   double width = 0, height = 0;
   std::vector<std::variant<Patch, Stroke, Label>> marks;

@@ -88,6 +88,7 @@ void add_scale(Drawing& d, const Panel& p, const FieldPanel& panel) {
 
 }  // namespace
 
+// The panels are placed from top to bottom; the height of the page follows from them.
 Drawing field_map(const FieldMap& map) {
   Drawing d;
   d.width = 720;

@@ -9,12 +9,14 @@
 
 namespace langer {
 
+// The values that one panel shows.
 struct FieldPanel {
   std::string title;
   std::vector<double> values;  // one for each place; NaN is grey
   double limit = 1;            // colours from -limit to limit: blue below zero, red above
 };
 
+// Panels over the same places.
 struct FieldMap {
   std::string title, x_label, y_label, unit;
   std::vector<double> x, y;  // of each place

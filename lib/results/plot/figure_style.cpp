@@ -12,6 +12,7 @@ bool ends_font_name(char c) {
 
 }  // namespace
 
+// Faults that ranges of numbers cannot express: the name of the font and the list of formats.
 std::vector<Complaint> FigureStyle::complaints() const {
   std::vector<Complaint> all;
   if (font.empty() || std::any_of(font.begin(), font.end(), ends_font_name))

@@ -25,6 +25,7 @@ constexpr const char* word_of(PictureFormat format) {
   return names(format)[static_cast<std::size_t>(format)];
 }
 
+// The listing `figure_style` with its defaults for a screen.
 struct FigureStyle {
   std::optional<double> width, height, font_size;
   std::string font = "DejaVu Sans";

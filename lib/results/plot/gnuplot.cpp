@@ -64,6 +64,8 @@ std::string printed(const std::string& text) {
 
 }  // namespace
 
+// Within single quotes gnuplot knows one special character, the quote itself, which is doubled.
+// Control characters become blanks.
 std::string gnuplot_string(const std::string& text) {
   std::string s = "'";
   for (char c : text) {
@@ -84,6 +86,7 @@ std::string gnuplot_file(const std::string& name) {
   return gnuplot_string("./" + name);
 }
 
+// A backslash before each mark of enhanced text.
 std::string literal(const std::string& name) {
   std::string s;
   for (char c : name) {
@@ -274,6 +277,7 @@ std::string terminal_arguments(PictureFormat format, const FigureStyle& style) {
 
 }  // namespace
 
+// The script repeats the plot for each format, because gnuplot draws into one file at a time.
 std::string gnuplot_script(const Plot& plot, const std::string& name, const FigureStyle& style) {
   std::string s = fmt::format("# made by langer; run again with: gnuplot {}.gp\n", name) +
                   frame_commands(plot, style);
@@ -379,6 +383,8 @@ void move_pictures(const std::filesystem::path& folder, const std::filesystem::p
 
 }  // namespace
 
+// gnuplot draws into a private folder. Complete pictures replace the old ones only if the whole
+// script succeeded.
 std::string run_gnuplot(const std::string& folder, const std::string& script) {
   // gnuplot opens its pictures as any program does and follows links. In an empty folder of its
   // own there are no links.

@@ -18,6 +18,7 @@ namespace langer {
 enum class AxisScale { linear, log_x, log_y, log };
 constexpr auto names(AxisScale) { return std::array{"linear", "log_x", "log_y", "log"}; }
 
+// One curve of a plot: columns of a CSV file, and how they are drawn.
 struct PlotLine {
   std::string csv;   // file, relative to the script
   std::string x, y;  // heads of its columns
@@ -39,6 +40,7 @@ struct PlotMark {
   std::string text;
 };
 
+// An x-y figure: its curves, axes and notes.
 struct Plot {
   std::string title;             // may be empty
   std::string x_label, y_label;  // with units

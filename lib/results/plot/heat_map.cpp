@@ -249,6 +249,8 @@ void add_scale(Drawing& d, const Grid& g) {
 
 }  // namespace
 
+// Cells first, then numbers, lines and axes, which must not be covered. A long title is made
+// smaller so that it fits the page.
 Drawing heat_map(const HeatMap& map, const Look& look) {
   const Grid g(map, look);
   Drawing d;
@@ -301,6 +303,7 @@ void add_error_bar(Drawing& d, double c, double low, double high, double cap) {
 
 }  // namespace
 
+// From top to bottom: title, legend, bars over a grid of horizontal lines, names of the groups.
 Drawing bars(const Bars& b, const Look& look) {
   // The set of colours of Okabe and Ito.
   constexpr Colour colours[] = {{0, 0.447, 0.698},   {0.835, 0.369, 0}, {0, 0.62, 0.451},

@@ -10,6 +10,7 @@
 
 namespace langer {
 
+// The matrix with its names and the settings of its scale.
 struct HeatMap {
   std::string title, x_label, y_label, value_label;
   // One name for each column and row. Empty: the axes have numbers, from the range below.

@@ -21,6 +21,7 @@ constexpr int wished_bands = 14;
 constexpr int parts = 3;  // into which the side of a facet is divided if several bands meet in it
 const Colour ink{0.13, 0.13, 0.13};
 
+// A corner of a polygon on the surface, with the value of the field.
 struct Corner {
   PlanePoint at;
   double value;
@@ -79,6 +80,18 @@ struct Scale {
   }
 };
 
+// Functions of a corner that are not negative on one side of a bound.
+auto up_to(int axis, double bound) {
+  return [axis, bound](const Corner& c) {
+    return bound - c.at[axis];
+  };
+}
+auto from(int axis, double bound) {
+  return [axis, bound](const Corner& c) {
+    return c.at[axis] - bound;
+  };
+}
+
 // The part of the plane that is shown.
 struct Window {
   double x_low, x_high, z_low, z_high;
@@ -87,10 +100,10 @@ struct Window {
   }
 
   Polygon part(Polygon polygon) const {
-    polygon = clipped(polygon, [&](const Corner& c) { return x_high - c.at[0]; });
-    polygon = clipped(polygon, [&](const Corner& c) { return c.at[0] - x_low; });
-    polygon = clipped(polygon, [&](const Corner& c) { return z_high - c.at[1]; });
-    return clipped(polygon, [&](const Corner& c) { return c.at[1] - z_low; });
+    polygon = clipped(polygon, up_to(0, x_high));
+    polygon = clipped(polygon, from(0, x_low));
+    polygon = clipped(polygon, up_to(1, z_high));
+    return clipped(polygon, from(1, z_low));
   }
 };
 
@@ -106,6 +119,7 @@ Window window_of(const std::vector<MapPanel>& panels, const MapStyle& style) {
   return w;
 }
 
+// Whether at least one node of a panel is in the window.
 bool has_nodes(const Window& window, const std::vector<MapPanel>& panels) {
   return std::ranges::any_of(panels, [&](const MapPanel& panel) {
     return std::ranges::any_of(panel.map->places,
@@ -190,6 +204,7 @@ class Painter {
       std::move(band.begin(), band.end(), std::back_inserter(drawing_.marks));
   }
 
+  // The edges of the elements.
   void edges(const SurfaceMap& map) {
     for (const auto& facet : map.facets)
       for (int k = 0; k < 4; ++k)
@@ -325,6 +340,8 @@ class Painter {
     }
   }
 
+  // Adds a polygon in the colour of a band. Patches are collected by band until the field is
+  // complete.
   void patch(const Polygon& polygon, int band) {
     Patch p{{}, scale_.colour(band), 0.4};
     for (const Corner& c : polygon) p.corners.push_back(page(c.at));
@@ -405,6 +422,8 @@ std::vector<Complaint> MapStyle::complaints() const {
   return {{"range", "its ends are not ascending", "[low, high]", ""}};
 }
 
+// Lays out panels, titles and colour bar on the page, then paints the panels from left to right
+// and from top to bottom.
 Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, int columns,
                     const Look& look) {
   const Window window = window_of(panels, style);

@@ -13,6 +13,7 @@
 
 namespace langer {
 
+// The listing `style` of maps.
 struct MapStyle {
   std::optional<double> reach;
   std::optional<std::array<double, 2>> range;
@@ -30,6 +31,7 @@ struct MapStyle {
   std::vector<Complaint> complaints() const;
 };
 
+// One map with the title of its panel.
 struct MapPanel {
   std::string title;
   const SurfaceMap* map = nullptr;

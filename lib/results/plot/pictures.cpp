@@ -18,6 +18,7 @@ void Pictures::check_replaceable(const std::string& name, bool script_makes_svg)
   }
 }
 
+// Writes the script and runs it at once if gnuplot is to draw now. A failure is kept for the end.
 void Pictures::run(const std::string& name, const std::string& script) {
   write_text_file(path_of(name + ".gp"), script);
   if (!now_) return;

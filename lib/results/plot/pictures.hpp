@@ -13,6 +13,7 @@ namespace langer {
 struct Drawing;
 struct Plot;
 
+// Draws figures into one folder in one style.
 class Pictures {
  public:
   // now: false writes the scripts without running them

@@ -15,6 +15,7 @@ namespace langer {
 
 namespace {
 
+// The length of the undeformed mesh along an axis.
 double extent(const Mesh& mesh, int axis) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -25,58 +26,81 @@ double extent(const Mesh& mesh, int axis) {
   return high - low;
 }
 
-bool fits_a_name(char c) {
+// Letters that need no quotes in CSV, HDF5 paths and scripts.
+bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
          c == '+' || c == '-';
 }
 
-std::string known(const std::vector<std::string>& names) {
+// A list in words of the names that a message offers.
+std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) append(list, ", ", name);
   return text_or(list, "none at all");
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
-  const std::string near = nearest(name, names);
-  if (near.empty()) return "";
-  return fmt::format("did you mean \"{}\"?", near);
+  return langer::did_you_mean(nearest(name, names));
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// What a column shows, as the subject of a message.
+std::string subject_of(const ColumnChoice& choice) {
+  if (choice.quantity) return line_of(*choice.quantity).word;
+  if (choice.history) return "a history";
+  return "a quotient";
+}
+
+// The keys of a column that exclude each other, of which the config has two.
+std::string conflict_of(const ColumnChoice& choice) {
+  if (!choice.quotient) return "both a quantity and a history";
+  if (!choice.quantity) return "both a history and a quotient";
+  return "both a quantity and a quotient";
+}
+
+// Whether the quantity of a column is measured at a place.
+bool has_place(const ColumnChoice& choice) {
+  return choice.quantity && needs_place(line_of(*choice.quantity));
 }
 
 }  // namespace
 
+// Faults that the config alone shows: missing or conflicting keys, and names that files cannot
+// have.
 std::vector<Complaint> ColumnChoice::complaints() const {
   const int ways = quantity.has_value() + history.has_value() + quotient.has_value();
   if (ways == 0)
     return {{"", "neither a quantity nor a history nor a quotient", "one of the three", ""}};
-  if (ways > 1)
-    return {{"",
-             fmt::format("both a {} and a {}", quantity ? "quantity" : "history",
-                         quotient ? "quotient" : "history"),
-             "one of the two", ""}};
+  if (ways > 1) return {{"", conflict_of(*this), "one of the two", ""}};
+
   std::vector<Complaint> found;
   const std::string column = column_name(*this);
-  if (!is_column_name(column))
-    found.push_back(
-        {name ? "name" : "at", "the column name \"" + column + "\"", column_letters, ""});
-  if (quantity && needs_place(line_of(*quantity)) && !at)
+  if (!is_column_name(column)) {
+    const char* const key = name ? "name" : "at";
+    found.push_back({key, "the column name \"" + column + "\"", column_letters, ""});
+  }
+  if (has_place(*this) && !at)
     found.push_back({"at", "missing", "the name of an observation point or node set",
                      fmt::format("{} is measured at a place", line_of(*quantity).word)});
-  if (at && !(quantity && needs_place(line_of(*quantity))))
-    found.push_back({"at", *at, "no place",
-                     fmt::format("{} belongs to the whole body", quantity  ? line_of(*quantity).word
-                                                                 : history ? "a history"
-                                                                           : "a quotient")});
-  if (zero_at && (quotient || !parse_step(*zero_at)))
+  if (at && !has_place(*this))
     found.push_back(
-        {"zero_at", quotient ? "found beside a quotient" : *zero_at,
-         quotient ? "a quantity or a history" : "a row of the table, t=0.5 or u_ind=0.5", ""});
+        {"at", *at, "no place", fmt::format("{} belongs to the whole body", subject_of(*this))});
+  if (zero_at && quotient)
+    found.push_back({"zero_at", "found together with a quotient", "a quantity or a history", ""});
+  if (zero_at && !quotient && !parse_step(*zero_at))
+    found.push_back({"zero_at", *zero_at, "a row of the table, t=0.5 or u_ind=0.5", ""});
   return found;
 }
 
 bool is_column_name(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), fits_a_name);
+  return !name.empty() && std::ranges::all_of(name, is_name_letter);
 }
 
+// Both columns of a quotient must be in the config and have the same unit. A quotient of
+// quotients is refused, because its value would depend on the order of the columns.
 std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
                                            const std::vector<ColumnChoice>& columns,
                                            const std::vector<ColumnChoice>& further) {
@@ -97,7 +121,7 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
     else
       complaints.push_back({fmt::format("quotient[{}]", i),
                             fmt::format("there is no column \"{}\"", name),
-                            "one of " + known(names), did_you_mean(name, names)});
+                            "one of " + list_of(names), did_you_mean(name, names)});
   }
   if (found_units.size() == 2 && found_units[0] != found_units[1])
     complaints.push_back({"quotient", fmt::format("{} over {}", found_units[0], found_units[1]),
@@ -105,6 +129,7 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
   return complaints;
 }
 
+// The name in the config, or the one that follows from quantity, place and fibre family.
 std::string column_name(const ColumnChoice& choice) {
   if (choice.name) return *choice.name;
   if (choice.history) return *choice.history;
@@ -121,6 +146,8 @@ std::string unit_of(const ColumnChoice& choice) {
   return solution::unit_of(*choice.history);
 }
 
+// The label of an axis. Names that users or the solver gave are printed literally, without
+// subscripts.
 std::string label_of(const ColumnChoice& choice) {
   if (choice.quotient) return literal((*choice.quotient)[0] + " / " + (*choice.quotient)[1]);
   if (choice.quantity) return line_of(*choice.quantity).label;
@@ -134,9 +161,10 @@ std::vector<std::string> bands_of(const std::string& column) {
 }
 
 namespace {
-// what the names of its derivatives begin with (inverse/sensitivity.cpp); empty where there are
-// none
-std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
+
+// The begin of the names of a column's derivatives with respect to parameters
+// (inverse/sensitivity.cpp): d_<column>_<unit>_d_. Empty if the solver computes none.
+std::string derivative_prefix(std::string_view word, const ColumnChoice& c) {
   if (word == "energy") return "d_energy_N_mm_d_";
   if (word == "force" || word == "force_x" || word == "force_y" || word == "force_z")
     return "d_" + std::string(word) + "_N_d_";
@@ -146,6 +174,24 @@ std::string derivatives_of(std::string_view word, const ColumnChoice& c) {
     return "d_reaction_" + *c.at + "_" + word.back() + "_N_d_";
   return "";
 }
+
+bool is_torque(const ColumnChoice& c) { return c.history && c.history->starts_with("torque_"); }
+
+// The word of a column that may have an error estimate; empty for others.
+std::string estimated_word(const ColumnChoice& c) {
+  if (is_torque(c)) return *c.history;
+  if (c.quantity) return line_of(*c.quantity).word;
+  return "";
+}
+
+// The history with the estimated error of a column; empty if it has none.
+std::string error_history(const ColumnChoice& c) {
+  const std::string word = estimated_word(c);
+  if (is_torque(c) || word == "force") return error_of(word);
+  if (word.starts_with("reaction_") && c.at) return error_of("reaction_" + *c.at);
+  return "";
+}
+
 }  // namespace
 
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
@@ -155,33 +201,28 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
   for (const ColumnChoice& c : columns) names.push_back(column_name(c));
   for (const ColumnChoice& c : columns) {
     out.push_back(c);
-    const bool of_torque = c.history && c.history->starts_with("torque_");
-    if (!c.quantity && !of_torque) continue;
-    const std::string_view word =
-        of_torque ? std::string_view(*c.history) : line_of(*c.quantity).word;
-    const std::string history =
-        error_of(of_torque                               ? *c.history
-                 : word == "force"                       ? "force"
-                 : word.starts_with("reaction_") && c.at ? "reaction_" + *c.at
-                                                         : "");
-    const auto add = [&](const std::string& taken, const std::string& name) {
-      if (std::find(histories.begin(), histories.end(), taken) == histories.end()) return;
-      if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const std::string word = estimated_word(c);
+    if (word.empty()) continue;
+    // Adds a column of a history, if the solver wrote it and no column has its name.
+    const auto add = [&](const std::string& history, const std::string& name) {
+      if (!contains(histories, history) || contains(names, name)) return;
       ColumnChoice further;
-      further.history = taken;
+      further.history = history;
       further.name = name;
       out.push_back(further);
       names.push_back(name);
     };
-    add(history, error_of(column_name(c)));
+    add(error_history(c), error_of(column_name(c)));
     if (word == "force") add("force_deviation", column_name(c) + "_deviation");
-    const std::string derivatives = derivatives_of(word, c);
-    for (const std::string& one : histories)
-      if (!derivatives.empty() && one.starts_with(derivatives)) add(one, one);
+    const std::string prefix = derivative_prefix(word, c);
+    for (const std::string& history : histories)
+      if (!prefix.empty() && history.starts_with(prefix)) add(history, history);
   }
   return out;
 }
 
+// Finds the nodes, facets and lengths that the columns name. What the mesh or the solution lacks
+// is a complaint with the key that names it, so that all of them are reported at once.
 Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& key, const Body& body,
                  const Available& available) {
   Measures out;
@@ -195,10 +236,6 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       out.complaints.push_back({fmt::format("{}[{}].{}", key, i, part), std::move(found),
                                 std::move(expected), std::move(hint)});
     };
-    const auto has_history = [&](const std::string& name) {
-      return std::find(available.histories.begin(), available.histories.end(), name) !=
-             available.histories.end();
-    };
     Measure m;
     m.name = column_name(c);
     m.unit = unit_of(c);
@@ -208,14 +245,14 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
     m.zero_at = c.zero_at;
     m.key = fmt::format("{}[{}]", key, i);
     if (c.quotient) {
-      out.measures.push_back(std::move(m));  // the config knows that its columns are there
+      out.measures.push_back(std::move(m));  // quotient_complaints() has checked its columns
       continue;
     }
     if (c.history) {
       m.history = *c.history;
-      if (!has_history(m.history))
+      if (!contains(available.histories, m.history))
         complain("history", fmt::format("the solution has no history \"{}\"", m.history),
-                 "one of " + known(available.histories),
+                 "one of " + list_of(available.histories),
                  did_you_mean(m.history, available.histories));
     } else {
       const QuantityLine& line = line_of(*c.quantity);
@@ -225,15 +262,16 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       if (line.needs.shapes && !available.energy)
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
                  "a solution whose config this version can read", "");
+      // Without contact the complaint above is enough.
       if (line.needs.history && (available.contact || !line.needs.contact) &&
-          !has_history(line.needs.history))
+          !contains(available.histories, line.needs.history))
         complain("quantity", fmt::format("the solution has no history \"{}\"", line.needs.history),
-                 "one of " + known(available.histories), "");
+                 "one of " + list_of(available.histories), "");
       if (c.at && needs_place(line)) {
         const auto set = body.mesh().node_sets.find(*c.at);
         if (set == body.mesh().node_sets.end() || set->second.empty())
           complain("at", fmt::format("the mesh has no nodes called \"{}\"", *c.at),
-                   "one of " + known(sets), did_you_mean(*c.at, sets));
+                   "one of " + list_of(sets), did_you_mean(*c.at, sets));
         else
           m.nodes = set->second;
         if (line.needs.facets && !m.nodes.empty()) m.facets = surface_of(body.mesh(), *c.at);
@@ -250,11 +288,8 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
         complain("quantity", fmt::format("{} of a material without fibres", line.word),
                  "another quantity", "");
       if (line.needs.extent >= 0) {
-        if (c.length) {
-          m.length = *c.length;
-        } else {
-          m.length = extent(body.mesh(), line.needs.extent);
-        }
+        m.length = extent(body.mesh(), line.needs.extent);
+        if (c.length) m.length = *c.length;
       }
     }
     out.measures.push_back(std::move(m));

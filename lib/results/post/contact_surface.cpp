@@ -14,40 +14,45 @@ namespace langer {
 
 ContactSurface::ContactSurface(const Mesh& mesh, std::vector<int> candidates)
     : mesh_(mesh), candidates_(std::move(candidates)) {
-  const std::vector<int> nodes =
-      with_hanging(mesh, mesh.section ? through_layers(mesh, candidates_) : candidates_);
-  facets_ = facets_within(mesh, boundary(mesh), nodes);
+  std::vector<int> nodes = candidates_;
+  if (mesh.section) nodes = through_layers(mesh, candidates_);
+  facets_ = facets_within(mesh, boundary(mesh), with_hanging(mesh, nodes));
   if (!mesh.section) return;
-  const int layer = n_front(mesh);  // those of the planes of the section are no surface of the body
+  // Facets with all nodes in one layer are in the planes of the section, not on the surface.
+  const int layer = n_front(mesh);
   std::erase_if(facets_, [&](const Facet& facet) {
     const auto nodes = facet_nodes(mesh, facet);
-    return std::all_of(nodes.begin(), nodes.end(),
-                       [&](int node) { return node / layer == nodes[0] / layer; });
+    return std::ranges::all_of(nodes, [&](int node) { return node / layer == nodes[0] / layer; });
   });
 }
 
-// the nodes behind z = 0 move with those in front, and the cells count as often as the section says
+// Adds the areas of the nodes behind z = 0 of a section to those in front, which they move with.
+// The elements count as often as the section says.
 void ContactSurface::fold(std::vector<Vec3>& area) const {
   const auto layer = static_cast<std::size_t>(n_front(mesh_));
   for (std::size_t i = layer; i < area.size(); ++i) area[i % layer] += area[i];
+  const double share = cell_share(*mesh_.section);
   for (std::size_t i = 0; i < area.size(); ++i) {
     if (i < layer) {
-      area[i] = Vec3(cell_share(*mesh_.section) * Vec3(area[i][0], area[i][1], 0));
+      area[i] = share * Vec3(area[i][0], area[i][1], 0);
     } else {
-      area[i] = Vec3(Vec3::Zero());
+      area[i].setZero();
     }
   }
 }
 
+// Areas of the nodes first, then the reaction of each node in contact over its area. Hanging
+// nodes give their area to the nodes that they hang on, and get their traction from them.
 ContactPerArea ContactSurface::at(const std::vector<Vec3>& u, const ContactRecord& contact) const {
-  std::vector<Vec3> area(mesh_.X.size(), Vec3::Zero());  // inward
+  // The nodal forces of a pressure of 1 MPa on the deformed facets are the areas, along the inward
+  // normal.
+  std::vector<Vec3> area(mesh_.X.size(), Vec3::Zero());
   for (const Facet& facet : facets_) {
     ElementNodes x = element_nodes(mesh_, facet.cell);
     const auto nodes = mesh_.cell(facet.cell);
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       x.row(a) += u[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])].transpose();
-    const ElementNodes force =
-        follower_pressure(mesh_.cell(), facet.local, x);  // of 1 MPa: the area, inwards
+    const ElementNodes force = follower_pressure(mesh_.cell(), facet.local, x);
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       area[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])] +=
           force.row(a).transpose();
@@ -83,7 +88,8 @@ void add_contact_numbers(std::map<std::string, double>& numbers,
     pressure = std::max(pressure, state.pressure_max);
   }
   if (surfaces.empty()) return;
-  numbers["contact_area"] = area, numbers["contact_radius"] = std::sqrt(area / std::numbers::pi);
+  numbers["contact_area"] = area;
+  numbers["contact_radius"] = std::sqrt(area / std::numbers::pi);
   numbers["contact_pressure_max"] = pressure;
 }
 
@@ -94,16 +100,17 @@ void add_contact_nodes(std::vector<ContactNode>& nodes, const std::vector<int>& 
     const auto node = static_cast<std::size_t>(candidates[i]);
     ContactNode& here = nodes[node];
     const double pressure = state.pressure[node];
-    const double all = state.traction[node].norm();
+    const double traction = state.traction[node].norm();
     here.status = std::max(here.status, contact.status[i]);
     if (!slip.empty()) here.slip = std::max(here.slip, slip[i]);
-    if (all == 0 || pressure < here.pressure) continue;
+    // Of several indenters the one with the greatest pressure is shown.
+    if (traction == 0 || pressure < here.pressure) continue;
     here.pressure = pressure;
-    here.friction = std::sqrt(std::max(0.0, all * all - pressure * pressure));
+    here.friction = std::sqrt(std::max(0.0, traction * traction - pressure * pressure));
   }
 }
 
-bool is_of_contact_surface(std::string_view column) {
+bool is_contact_surface_column(std::string_view column) {
   return column == "contact_area" || column == "contact_radius" || column == "contact_pressure_max";
 }
 

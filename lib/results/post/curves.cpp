@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/text.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/element/surface.hpp"
 #include "mechanics/mesh/section.hpp"
@@ -17,8 +18,7 @@ Vec3 mean(const std::vector<Vec3>& field, const std::vector<int>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-// The greatest von Mises stress is that of the nodal averages, which figures show and the solver
-// estimates the error of; the others are over all Gauss points.
+// The extremes over all Gauss points. The values of all elements are then in `gauss`.
 Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gauss) {
   Extremes all;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
@@ -42,9 +42,10 @@ Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gau
   return all;
 }
 
-// Each point of the surface goes straight: V = integral over 0 <= s <= 1 of (integral u . n da)
-// where s u is reached, a polynomial of second degree in s, which Simpson's rule integrates
-// exactly.
+// The volume between the undeformed and the deformed surface. Each point of the surface moves
+// along a straight line, so V is the integral over 0 <= s <= 1 of (integral of u . n da) with the
+// surface at s u. The integrand is a polynomial of second degree in s, which Simpson's rule
+// integrates exactly.
 double swept_volume(const Mesh& mesh, const std::vector<Facet>& facets,
                     const std::vector<Vec3>& u) {
   double volume = 0;
@@ -78,22 +79,25 @@ double value_of(Quantity quantity, const VecX& row, int family) {
 
 namespace {
 
-// The value of a line's function, given what it takes.
+// Calls the function of a quantity with the argument that it is defined for: the state, the mean
+// displacement of a set, the values at its nodes, and so on.
 struct Measurement {
   const Body& body;
   const Measure& m;
   StressAt at;
   const StepState& state;
   GaussValues& gauss;
-  std::optional<Extremes>& all;  // found once for all measures
+  std::optional<Extremes>& all;  // computed once for all measures
 
   double operator()(OfState value) const { return value(state); }
   double operator()(OfNodes value) const { return value(mean(state.u, m.nodes)); }
   double operator()(OfContact value) const {
     double sum = 0;
-    for (int node : m.nodes)
-      sum += value(state.contact.empty() ? ContactNode{0, 0, 0, 0}
-                                         : state.contact[static_cast<std::size_t>(node)]);
+    for (int node : m.nodes) {
+      ContactNode here{0, 0, 0, 0};  // of the unloaded state
+      if (!state.contact.empty()) here = state.contact[static_cast<std::size_t>(node)];
+      sum += value(here);
+    }
     return sum / static_cast<double>(m.nodes.size());
   }
   double operator()(OfSet value) const {
@@ -118,6 +122,7 @@ struct Measurement {
 
 }  // namespace
 
+// The values of all columns in one state. Quotients are computed last, from the other columns.
 std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at,
                              const StepState& state, GaussValues& gauss) {
   std::vector<double> values;
@@ -129,18 +134,21 @@ std::vector<double> measured(const Body& body, const std::vector<Measure>& measu
       values.push_back(
           std::visit(Measurement{body, m, at, state, gauss, all}, line_of(*m.quantity).value));
     } else {
-      const auto found = state.histories.find(m.history);
-      values.push_back(found == state.histories.end() ? 0 : found->second);
+      values.push_back(value_or(state.histories, m.history, 0));
     }
   }
-  const auto named = [&](const std::string& name) {
-    const auto found = std::find_if(measures.begin(), measures.end(),
-                                    [&](const Measure& m) { return m.name == name; });
-    return found == measures.end() ? 0 : values[static_cast<std::size_t>(found - measures.begin())];
+  // Quotients come after all other columns, which they name.
+  const auto value_of_column = [&](const std::string& name) {
+    const auto found = std::ranges::find(measures, name, &Measure::name);
+    if (found == measures.end()) return 0.0;
+    return values[static_cast<std::size_t>(found - measures.begin())];
   };
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    if (const auto& pair = measures[i].quotient)
-      if (const double below = named((*pair)[1]); below != 0) values[i] = named((*pair)[0]) / below;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (!measures[i].quotient) continue;
+    const auto& [above, below] = *measures[i].quotient;
+    const double divisor = value_of_column(below);
+    if (divisor != 0) values[i] = value_of_column(above) / divisor;
+  }
   for (double& value : values) value += 0.0;  // no -0 in tables
   return values;
 }

@@ -1,11 +1,13 @@
 // Curves: one number per state for each chosen quantity.
-//   a state's u, reaction are (n) per node; force_ind is the force on the indenter
-//   u_ind   length of the indenter's displacement; force = -force_ind . u_ind/|u_ind|, positive where the body resists
-//           (at zero displacement, where there is no direction, the length of force_ind)
-//   work, dissipated, balance, path   see post/energy.hpp
-//   quotient  of two other columns of one unit, by name; not a number where the second is 0
-//   eps_xx  mean displacement of a set along x, over `length` (by default the mesh's extent in that direction)
-// A name that does not exist in the mesh or in the solution is a complaint with the key that holds
+//   u, reaction   of a state: (n) per node; force_ind is the force on the indenter
+//   u_ind         length of the indenter's displacement
+//   force         -force_ind . u_ind/|u_ind|, positive where the body resists; at zero
+//                 displacement, where there is no direction, the length of force_ind
+//   work, dissipated, balance, path   see post/energy_columns.hpp
+//   quotient      of two other columns of one unit, by name; NaN where the second is 0
+//   eps_xx        mean displacement of a set along x, over `length` (by default the extent of the
+//                 mesh along x)
+// A name that does not exist in the mesh or in the solution is a complaint with the key that has
 // it.
 #pragma once
 
@@ -38,17 +40,18 @@ struct ColumnChoice {
     v(&ColumnChoice::name, "name", unit::none,
       "name of the column without its unit; by default the quantity, and _ and the place");
     v(&ColumnChoice::length, "length", unit::mm,
-      "of a strain: the length that belongs to 1; by default the mesh's extent", positive);
+      "of a strain: reference length; by default the extent of the mesh", positive);
     v(&ColumnChoice::zero_at, "zero_at", unit::none,
-      "state that the column is measured from, such as the end of a stage: its value there is taken from all of them. A row of the "
-      "table, t=0.5 or u_ind=0.5, and the path must stop there");
+      "state that the column is measured from, such as the end of a stage: its value there is "
+      "subtracted from all values. A row of the table, t=0.5 or u_ind=0.5; the path must stop "
+      "there");
     v(&ColumnChoice::family, "family", unit::none, "of a fibre stretch: which fibre family, from 1",
       at_least(1));
   }
   std::vector<Complaint> complaints() const;
 };
 std::string column_name(const ColumnChoice& choice);  // without unit
-bool is_column_name(const std::string& name);         // may stand in CSV, HDF5 paths and scripts
+bool is_column_name(const std::string& name);         // allowed in CSV, HDF5 paths and scripts
 inline constexpr const char* column_letters = "letters, digits, _, + and - only";
 std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
                                            const std::vector<ColumnChoice>& columns,
@@ -56,37 +59,39 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
 std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
-// What the solver has estimated of a column's error beside it, as one more column <name>_error: of
-// force, and of reactions of the sets that are moved. And its derivatives with respect to the
-// numbers that `sensitivity` names, d_force_N_d_matrix_yeoh_a1.
+// The columns, each followed by what the solver estimated for it: its error <name>_error (of
+// force, torques and reactions of moved sets), its standard deviation from the parameters, and
+// its derivatives with respect to the numbers that `sensitivity` names, such as
+// d_force_N_d_matrix_yeoh_a1.
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
                                       const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
-// What a figure draws as a band about a column, the first of them that is there: what parameters
-// leave open (uncertainty: linear), errors.
+// The names of columns that a figure draws as a band about a column. The first that exists is
+// drawn: the standard deviation from the parameters (uncertainty: linear), or the error.
 std::vector<std::string> bands_of(const std::string& column);
 
-// The same with everything looked up.
+// A column with its nodes, facets and lengths found in the mesh.
 struct Measure {
   std::string name, unit, label;
   std::optional<Quantity> quantity;
   std::string history;
   std::optional<std::array<std::string, 2>> quotient;
   std::vector<int> nodes;
-  std::vector<Facet> facets;  // where they are needed
+  std::vector<Facet> facets;  // only for quantities that need them
   std::optional<std::string> zero_at;
   std::string key;  // of the column
   int family = 0;   // from 0
   double length = 1;
 };
 
-// What there is to choose from, beside the mesh.
+// What a solution offers, apart from the mesh.
 struct Available {
   bool contact = false;
-  bool energy = true;                  // the indenters' shapes are known
+  bool energy = true;                  // the shapes of the indenters are known
   std::vector<std::string> histories;  // of the solver
 };
 
+// Columns that were found, and the faults of the others.
 struct Measures {
   std::vector<Measure> measures;
   std::vector<Complaint> complaints;  // keys like columns[2].at
@@ -101,17 +106,18 @@ struct StepState {
   std::vector<Vec3> u, reaction;
   Vec3 u_ind = Vec3::Zero(), force_ind = Vec3::Zero();
   int stick = 0, slip = 0;                  // nodes of all contacts
-  std::map<std::string, double> histories;  // what the unloaded state lacks is 0
+  std::map<std::string, double> histories;  // those that the unloaded state lacks are 0
   PathSums sums;
-  std::vector<ContactNode> contact;  // (n), where a measure asks for it
+  std::vector<ContactNode> contact;  // (n), if a measure asks for it
 };
 StepState unloaded(const Mesh& mesh);
 
-// One value per measure; a quotient names others of them. `gauss` gets what was missing of it.
+// One value per measure; a quotient names others of them. Gauss values that are missing in
+// `gauss` are computed and added to it.
 std::vector<double> measured(const Body& body, const std::vector<Measure>& measures, StressAt at,
                              const StepState& state, GaussValues& gauss);
 
-// Value of a quantity in a row of values (post/fields.hpp).
-double value_of(Quantity quantity, const VecX& row, int family = 0);  // of a point
+// The value of a quantity of points, computed from a row of values (post/nodal_fields.hpp).
+double value_of(Quantity quantity, const VecX& row, int family = 0);
 
 }  // namespace langer

@@ -11,14 +11,15 @@ namespace langer {
 
 namespace {
 
-// Of an increment in which a pushed indenter comes to the body, the movement behind the touch:
-// before it there is no force.
-Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& from,
-                  std::size_t k, const Vec3& c, const Vec3& dc) {
-  const std::vector<Vec3>& r = from.r[k];
-  if (!contact.control ||
-      std::any_of(r.begin(), r.end(), [](const Vec3& r_i) { return !r_i.isZero(0); }))
-    return dc;
+bool is_zero(const Vec3& v) { return v.isZero(0); }
+
+// The movement of a force-controlled indenter that does work. In the increment in which it reaches
+// the body, the movement before the first touch does none.
+Vec3 movement_in_contact(const RigidContact& contact, const Mesh& mesh,
+                         const EnergyPath::State& from, std::size_t k, const Vec3& c,
+                         const Vec3& dc) {
+  const bool in_contact = !std::ranges::all_of(from.r[k], is_zero);
+  if (!contact.control || in_contact) return dc;
   const RigidContact pushed{
       contact.name, contact.shape, 0, contact.nodes, {}, ForceControl{contact.control->along, {}}};
   const auto position = [&](int node) {
@@ -30,29 +31,31 @@ Vec3 behind_touch(const RigidContact& contact, const Mesh& mesh, const EnergyPat
   return dc;
 }
 
-// Of a body of revolution what points away from the axis is that of the whole circle, and cancels.
-Vec3 of_circle(const Mesh& mesh, const Vec3& sum) {
+// The part of a sum over nodes that a whole ring has: in a body of revolution radial forces
+// cancel.
+Vec3 sum_over_ring(const Mesh& mesh, const Vec3& sum) {
   if (mesh.section && mesh.section->of == SectionOf::axisymmetric) {
     return Vec3(0, sum[1], 0);
   }
   return sum;
 }
 
-// What bonds make of the force on the body that pulls it towards the indenter, along the mean
-// normal of what bears [N].
-double pull_of(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state,
-               std::size_t k, const Vec3& c) {
+// The force with which an indenter and its bonds pull the body towards it, along the mean normal
+// of the nodes in contact [N].
+double pull_force(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state,
+                  std::size_t k, const Vec3& c) {
   Vec3 force = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const Vec3 &r = state.r[k][i], &bond = state.bonds[k][i];
+    const Vec3& r = state.r[k][i];
+    const Vec3& bond = state.bonds[k][i];
     if (r.isZero(0) && bond.isZero(0)) continue;
     const int node = contact.nodes[i];
     const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
     force += r + bond;
     normal += (r.norm() + bond.norm()) * n;
   }
-  normal = of_circle(mesh, normal);
+  normal = sum_over_ring(mesh, normal);
   if (normal.isZero(0)) return 0;
   return std::max(0.0, -force.dot(normal.normalized()));
 }
@@ -68,6 +71,8 @@ EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
   for (const RigidContact& contact : contacts_) slips_.emplace_back(contact.nodes.size(), 0.0);
 }
 
+// Adds the work and the dissipation of contact k in the increment to `step`, and its nodal forces
+// at both ends to `from_contact`.
 void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
                              std::vector<Vec3>& rates) {
   const RigidContact& contact = contacts_[k];
@@ -80,26 +85,28 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     for (const Vec3& r : now.r[0]) force += r;
     step.way = dc.norm();
     step.travel = c.norm();
-    step.force = of_circle(mesh_, force).norm();
+    step.force = sum_over_ring(mesh_, force).norm();
   }
   if (!now.bonds.empty() && !now.bonds[k].empty())
-    step.pull = std::max(step.pull, pull_of(contact, mesh_, now, k, c));
+    step.pull = std::max(step.pull, pull_force(contact, mesh_, now, k, c));
   double angle = 0;
   if (contact.rotation) {
     angle = contact.rotation->angle.at(now.t) - contact.rotation->angle.at(last_.t);
     rates.push_back(angle / step.dt * contact.rotation->axis.along);
-    step.begin +=
-        angle *
-        torque(
-            contact, [&](int node) { return Vec3(mesh_.X[node] + last_.u[node]); }, c0, last_.r[k]);
-    step.end += angle * torque(
-                            contact, [&](int node) { return Vec3(mesh_.X[node] + now.u[node]); }, c,
-                            now.r[k]);
+    const auto last_position = [&](int node) {
+      return Vec3(mesh_.X[node] + last_.u[node]);
+    };
+    const auto position = [&](int node) {
+      return Vec3(mesh_.X[node] + now.u[node]);
+    };
+    step.begin += angle * torque(contact, last_position, c0, last_.r[k]);
+    step.end += angle * torque(contact, position, c, now.r[k]);
   }
-  const Vec3 worked = behind_touch(contact, mesh_, last_, k, c0, dc);
+  const Vec3 worked = movement_in_contact(contact, mesh_, last_, k, c0, dc);
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const int node = contact.nodes[i];
-    const Vec3 &r0 = last_.r[k][i], &r1 = now.r[k][i];
+    const Vec3& r0 = last_.r[k][i];
+    const Vec3& r1 = now.r[k][i];
     from_contact.begin[node] += r0;
     from_contact.end[node] += r1;
     step.begin += r0.dot(worked);
@@ -111,12 +118,13 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
         (*from)[node] += state->bonds[k][i];
         *power += state->bonds[k][i].dot(worked);
       }
-    // the slip lies in the tangent plane of the state whose reaction it meets; the part along the
-    // normal is no slip
+    // The relative movement of the node. Its part in the tangent plane of the state whose reaction
+    // it meets is the slip. With respect to an indenter that turns, a node at rest slips along an
+    // arc about the axis: v is the chord seen from the end, turned back by half of the angle and
+    // lengthened to the arc.
     const Vec3 x0 = mesh_.X[node] + last_.u[node];
     Vec3 v = now.u[node] - last_.u[node] - dc;
-    if (angle != 0) {  // a node at rest slips along an arc about the axis, and this is its chord,
-                       // seen from the end
+    if (angle != 0) {
       v -= carried(contact, angle, x0, c0);
       v = 0.5 * angle / std::sin(0.5 * angle) *
           (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
@@ -133,6 +141,8 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
   }
 }
 
+// The movement of nodes with imposed displacements. Nodes of a set that turns move along arcs, so
+// the rates at the two ends differ.
 EnergyPath::Ends EnergyPath::imposed(const State& now) const {
   Ends du;
   for (std::size_t i = 0; i < now.u.size(); ++i) du.begin.push_back(now.u[i] - last_.u[i]);
@@ -149,6 +159,8 @@ EnergyPath::Ends EnergyPath::imposed(const State& now) const {
   return du;
 }
 
+// Adds the increment from the last state to this one: the power of indenters, loads and supports
+// at its two ends, and whether the path continues without a kink.
 void EnergyPath::add(State now) {
   stored_.push_back(now.stored);
   if (stored_.size() == 1) {
@@ -160,7 +172,8 @@ void EnergyPath::add(State now) {
   Ends from_contact{none, none};
   std::vector<Vec3> rates;
   for (std::size_t k = 0; k < contacts_.size(); ++k) add_contact(k, now, step, from_contact, rates);
-  const Ends du = imposed(now);  // supports do not move
+  // The rest of the reactions belongs to supports, which do not move, and to imposed displacements.
+  const Ends du = imposed(now);
   for (std::size_t i = 0; i < now.u.size(); ++i) {
     if (now.loads.size() > 0) {
       const auto row = 3 * static_cast<Eigen::Index>(i);
@@ -173,43 +186,46 @@ void EnergyPath::add(State now) {
   }
   step.begin /= step.dt;
   step.end /= step.dt;
-  for (std::size_t k = 0; k < rates.size() && step.goes_on; ++k)
-    step.goes_on =
+  for (std::size_t k = 0; k < rates.size() && step.continues; ++k)
+    step.continues =
         (rates[k] - rates_[k]).norm() <= 1e-6 * std::max(rates[k].norm(), rates_[k].norm());
-  for (double t : kinks_) step.goes_on = step.goes_on && std::abs(t - last_.t) > 1e-9;
-  if (const double jump = now.jumps - last_.jumps; jump != 0 || jumped_) {
-    step.goes_on = false;
-    jumped_ = jump != 0;
-    if (jumped_) {
-      // friction in a jump is part of what it releases
-      step.begin = step.end = jump / step.dt;
-      step.dissipated = 0;
-    }
+  for (double t : kinks_) step.continues = step.continues && std::abs(t - last_.t) > 1e-9;
+  // The work of a jump is known. Its friction is part of the energy that it releases.
+  const double jump = now.jumps - last_.jumps;
+  if (jump != 0 || jumped_) step.continues = false;
+  jumped_ = jump != 0;
+  if (jumped_) {
+    step.begin = jump / step.dt;
+    step.end = step.begin;
+    step.dissipated = 0;
   }
   intervals_.push_back(step);
   rates_ = std::move(rates);
   last_ = std::move(now);
 }
 
+// Integrates the powers over the intervals. A parabola through three states differs from the
+// trapezoid by dt^3/6 times its curvature, the second divided difference of the power. If there
+// is a parabola on both sides of an interval, their mean is used.
 std::vector<PathSums> EnergyPath::sums() const {
   std::vector<PathSums> all(stored_.size());
   double largest = 0, most_force = 0, work_at_begin = 0;
   bool came_back = false;
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
     const Interval& here = intervals_[k];
-    const double goes = here.travel - (k > 0 ? intervals_[k - 1].travel : 0);
-    if (goes > 0 && came_back) work_at_begin = all[k].work;
-    if (goes != 0) came_back = goes < 0;
+    double advance = here.travel;
+    if (k > 0) advance = here.travel - intervals_[k - 1].travel;
+    if (advance > 0 && came_back) work_at_begin = all[k].work;
+    if (advance != 0) came_back = advance < 0;
     const double slope = (here.end - here.begin) / here.dt;
-    // second divided differences with the states before and after
     double curvature = 0;
     int neighbours = 0;
-    if (here.goes_on) {
+    if (here.continues) {
       const Interval& before = intervals_[k - 1];
       curvature += (slope - (here.begin - before.begin) / before.dt) / (here.dt + before.dt);
       ++neighbours;
     }
-    if (k + 1 < intervals_.size() && intervals_[k + 1].goes_on) {
+    if (k + 1 < intervals_.size() && intervals_[k + 1].continues) {
       const Interval& after = intervals_[k + 1];
       curvature += ((after.end - here.end) / after.dt - slope) / (here.dt + after.dt);
       ++neighbours;

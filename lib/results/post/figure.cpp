@@ -14,9 +14,9 @@ namespace langer {
 
 namespace {
 
+// The column with a name, or nullptr.
 const ColumnChoice* find(const std::vector<ColumnChoice>& columns, const std::string& name) {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const auto& c) { return column_name(c) == name; });
+  const auto found = std::ranges::find(columns, name, column_name);
   if (found == columns.end()) return nullptr;
   return &*found;
 }
@@ -50,9 +50,12 @@ std::string legend_of(const ColumnChoice& choice) {
   if (line_of(*choice.quantity).needs.fibres && choice.family > 1) {
     family = fmt::format(", family {}", choice.family);
   }
-  return label_of(choice) + (choice.at ? " at " + literal(*choice.at) : "") + family;
+  std::string place;
+  if (choice.at) place = " at " + literal(*choice.at);
+  return label_of(choice) + place + family;
 }
 
+// Columns that do not exist, and columns with different units on one axis.
 std::vector<Complaint> complaints(const FigureChoice& figure,
                                   const std::vector<ColumnChoice>& columns) {
   std::vector<Complaint> found;
@@ -86,25 +89,27 @@ Plot plot_of(const FigureChoice& figure, const std::vector<ColumnChoice>& column
   const auto head_of = [&](const std::string& name) {
     return head(name, unit_of(*find(columns, name)));
   };
-  const ColumnChoice &x = *find(columns, figure.x), &y = *find(columns, figure.y[0]);
+  const ColumnChoice& x = *find(columns, figure.x);
+  const ColumnChoice& y = *find(columns, figure.y[0]);
   Plot plot;
   plot.title = figure.title;
   plot.scale = figure.scale;
   plot.x_label = with_unit(figure.x_label.value_or(label_of(x)), unit_of(x));
-  // several quantities on one axis have no common name but the one the user gives
-  const bool alike = std::all_of(figure.y.begin(), figure.y.end(), [&](const std::string& name) {
+  // Several quantities on one axis have a common label only if the user gives one.
+  const bool one_label = std::ranges::all_of(figure.y, [&](const std::string& name) {
     return label_of(*find(columns, name)) == label_of(y);
   });
-  plot.y_label_is_unit = !figure.y_label && !alike;
+  plot.y_label_is_unit = !figure.y_label && !one_label;
   if (plot.y_label_is_unit) {
     plot.y_label = unit_of(y);
   } else {
     plot.y_label = with_unit(figure.y_label.value_or(label_of(y)), unit_of(y));
   }
   for (std::size_t i = 0; i < figure.y.size(); ++i) {
-    plot.lines.push_back(
-        {csv, head_of(figure.x), head_of(figure.y[i]),
-         figure.legends.empty() ? legend_of(*find(columns, figure.y[i])) : figure.legends[i]});
+    std::string legend = legend_of(*find(columns, figure.y[i]));
+    if (!figure.legends.empty()) legend = figure.legends[i];
+    plot.lines.push_back({csv, head_of(figure.x), head_of(figure.y[i]), legend});
+    // The first band that exists is drawn.
     for (const std::string& band : bands_of(figure.y[i]))
       if (find(columns, band) && plot.lines.back().error.empty())
         plot.lines.back().error = head_of(band);

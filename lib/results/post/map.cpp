@@ -16,6 +16,7 @@ std::vector<Complaint> MapChoice::complaints() const {
   return {{"field", line_of(field).word, "a quantity of nodes or points, as u_y or von_mises", ""}};
 }
 
+// Maps of sections are refused: their facets are lines.
 std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
   std::vector<Complaint> found;
   const Mesh& mesh = body.mesh();
@@ -24,21 +25,20 @@ std::vector<Complaint> complaints(const MapChoice& choice, const Body& body) {
     if (!set.empty()) facets.push_back(name);
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1) points.push_back(name);
-  const auto need = [&](const std::string& key, const std::string& name,
-                        const std::vector<std::string>& known, const char* kind) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    const std::string near = nearest(name, known);
-    found.push_back(
-        {key, fmt::format("the mesh has no {} called \"{}\"", kind, name),
-         known.empty() ? "none at all" : fmt::format("one of {}", fmt::join(known, ", ")),
-         did_you_mean(near)});
+  const auto require = [&](const std::string& key, const std::string& name,
+                           const std::vector<std::string>& known, const char* kind) {
+    if (std::ranges::find(known, name) != known.end()) return;
+    std::string expected = "none at all";
+    if (!known.empty()) expected = fmt::format("one of {}", fmt::join(known, ", "));
+    found.push_back({key, fmt::format("the mesh has no {} called \"{}\"", kind, name), expected,
+                     did_you_mean(nearest(name, known))});
   };
   if (mesh.section)
     return {{"on", "facets of a section, which are lines", "a body in three dimensions",
              "renders show sections"}};
-  need("on", choice.on, facets, "facets");
+  require("on", choice.on, facets, "facets");
   for (std::size_t i = 0; i < choice.points.size(); ++i)
-    need(fmt::format("points[{}]", i), choice.points[i], points, "point");
+    require(fmt::format("points[{}]", i), choice.points[i], points, "point");
   if (line_of(choice.field).needs.fibres && choice.family > body.n_families())
     found.push_back({"family", "a fibre family that the material lacks", "another field", ""});
   return found;
@@ -49,6 +49,7 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
   const Mesh& mesh = body.mesh();
   const QuantityLine& line = line_of(choice.field);
   SurfaceMap map{name, line.label, line.unit, t, {}, {}, {}, {}, {}};
+  // Nodes are numbered in the order in which facets first name them.
   std::vector<int> number(mesh.X.size(), -1);
   for (const Facet& facet : mesh.facet_sets.at(choice.on)) {
     for (std::array<int, 4> quad : facet_quads(mesh, facet)) {
@@ -63,8 +64,9 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
       map.facets.push_back(quad);
       if (body.n_families() == 0) continue;
       const auto fibres = body.fibres(facet.cell);
-      map.fibres.push_back(fibres.empty() ? std::array{0.0, 0.0}
-                                          : std::array{fibres[0][0], fibres[0][2]});
+      PlanePoint direction{0, 0};  // of an element without fibres
+      if (!fibres.empty()) direction = {fibres[0][0], fibres[0][2]};
+      map.fibres.push_back(direction);
     }
   }
   for (const std::string& point : choice.points) {
@@ -76,7 +78,8 @@ SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::str
 
 namespace {
 
-// Place in a quadrilateral as its bilinear coordinates in [0, 1]; nothing where it lies outside.
+// The bilinear coordinates in [0, 1] of a place in a quadrilateral, by Newton's method; nothing
+// outside. The bounding box is checked first, because most quadrilaterals are far away.
 std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const PlanePoint& place) {
   constexpr double slack = 1e-9;
   for (int i = 0; i < 2; ++i) {
@@ -84,7 +87,8 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
     if (place[i] < low - slack * (high - low) || place[i] > high + slack * (high - low)) return {};
   }
   double p = 0.5, q = 0.5;
-  for (int iteration = 0; iteration < 30; ++iteration) {  // Newton
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    // f is the distance of the interpolated point from the place, fp and fq are its derivatives.
     const double N[] = {(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
     const double Np[] = {-(1 - q), 1 - q, q, -q};
     const double Nq[] = {-(1 - p), -p, p, 1 - p};
@@ -111,6 +115,7 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
 
 }  // namespace
 
+// Facets are searched one by one; a map has some hundred.
 std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place) {
   for (const auto& facet : map.facets) {
     const auto at = within(
@@ -126,8 +131,9 @@ std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place) {
   return {};
 }
 
+// Nodes of b that are outside a are left out of the difference, but count for the size of b.
 double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond) {
-  constexpr double slack = 1e-9;  // rounding must not part a ring of nodes at that distance
+  constexpr double slack = 1e-9;  // rounding must not split a ring of nodes at that distance
   double most = 0, size = 0;
   for (std::size_t i = 0; i < b.places.size(); ++i) {
     if (std::hypot(b.places[i][0], b.places[i][1]) < (1 - slack) * beyond) continue;

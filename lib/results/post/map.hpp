@@ -1,5 +1,5 @@
-// Maps: a field on a part of the surface, seen from above; plot/map_drawing.hpp draws them.
-//   on      facet set; x to the right, z downwards, undeformed places
+// Maps: a field on a part of the surface, seen from above. plot/map_drawing.hpp draws them.
+//   on      facet set, in its undeformed position; x to the right, z downwards
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 
 namespace langer {
 
+// The listing `maps`: the field, the part of the surface and the state that a map shows.
 struct MapChoice {
   Quantity field = quantity("u_y");
   int family = 1;
@@ -31,18 +32,19 @@ struct MapChoice {
   std::vector<Complaint> complaints() const;
 };
 
-// what the body lacks, with keys relative to the map: on, points[0], family
+// Names that the body lacks, with keys relative to the map: on, points[0], family.
 std::vector<Complaint> complaints(const MapChoice& choice, const Body& body);
 
-// values: of the field at every node of the mesh; facets and points must be there
+// The map of a field from its values at every node of the mesh. Facets and points must exist: see
+// complaints().
 SurfaceMap surface_map(const Body& body, const MapChoice& choice, const std::string& name,
                        const std::vector<double>& values, double t);
 
-// value at a place by bilinear interpolation; nothing outside the map
+// The value at a place by bilinear interpolation; nothing outside the map.
 std::optional<double> value_at(const SurfaceMap& map, const PlanePoint& place);
 
-// largest |a - b| relative to the largest |b|, over the nodes of b that lie in a and not nearer to
-// x = z = 0 than `beyond`
+// The largest |a - b| relative to the largest |b|, over the nodes of b that are inside a and at
+// least `beyond` away from x = z = 0.
 double difference(const SurfaceMap& a, const SurfaceMap& b, double beyond = 0);
 
 }  // namespace langer

@@ -16,11 +16,13 @@ Body::Body(const Mesh& mesh, std::vector<Material> materials, Directions directi
       formulation_(formulation),
       n_families_(directions_.n_families()) {
   const int n = mesh.n_cells();
-  std::vector<int> shown(mesh.X.size(), std::numeric_limits<int>::max());  // region of each node
+  // The region that each node shows: the lowest number of all elements at it.
+  std::vector<int> shown(mesh.X.size(), std::numeric_limits<int>::max());
   for (int e = 0; e < n; ++e) {
     geometry_.push_back(element_geometry(element_nodes(mesh, e)));
     for (int node : mesh.cell(e)) shown[node] = std::min(shown[node], region(e));
   }
+  // The elements at each node, in compressed rows: count, sum up, fill.
   first_.assign(mesh.X.size() + 1, 0);
   for (int e = 0; e < n; ++e)
     for (int node : mesh.cell(e)) first_[node + 1] += region(e) == shown[node];
@@ -41,6 +43,8 @@ ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u,
   return q;
 }
 
+// The states of the Gauss points from the formulation of the elements, as rows: stress, J,
+// stretches of the fibres.
 ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e) {
   const auto a = body.fibres(e);
   const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
@@ -65,6 +69,7 @@ VecX element_mean(const Body& body, int e, const ElementValues& gauss) {
   return mean;
 }
 
+// F of the element's mean gradients of the shape functions, weighted with the reference volume.
 Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e) {
   const ElementGeometry& geometry = body.geometry(e);
   Gradients dN = Gradients::Zero(geometry.n_nodes(), 3);
@@ -87,6 +92,7 @@ GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u) {
   return gauss;
 }
 
+// The mean over the elements at the node, weighted with their reference volume.
 VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at) {
   VecX sum = VecX::Zero(body.n_values());
   double V = 0;
@@ -95,15 +101,16 @@ VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt 
     const double w = body.geometry(e).V;
     const ElementValues& values = gauss[e];
     if (at == StressAt::nodal_average) {
+      // J stays within the values at the Gauss points of the element.
       VecX row = (cell.at_nodes.row(a) * values).transpose();
-      row[6] = std::clamp(row[6], values.col(6).minCoeff(),
-                          values.col(6).maxCoeff());  // J: no volume that no point of the cell has
+      row[6] = std::clamp(row[6], values.col(6).minCoeff(), values.col(6).maxCoeff());
       sum += w * row;
-    } else
+    } else {
       sum += w * values.row(cell.nearest_gauss[a]).transpose();
+    }
     V += w;
   }
-  // a node of no cell carries nothing
+  // A node without elements has zeros.
   if (V > 0) return VecX(sum / V);
   return sum;
 }

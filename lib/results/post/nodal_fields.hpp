@@ -1,15 +1,17 @@
-// Stress, dilatation and fibre stretch of one state of a body: at Gauss points, as element means,
-// at nodes.   [A23] eqs 17-21
-//   a row of values   Cauchy stress 11 22 33 12 23 13 [MPa] | J [-] | fibre stretch sqrt(I4_bar) of each family [-]
-//   element mean      weighted with the Gauss points' shares of the reference volume
-//   node              nodal_average: the trilinear field through the 8 Gauss points (hex27: nearest to the 27), taken at the
-//                     element's node; nearest_gauss: the Gauss point nearest to the node. Both averaged over the elements at the node,
-//                     weighted with reference volume, within one region (bodies of different materials never mix;
-//                     a node between two regions shows the lower numbered one). J is kept within the values of each cell's own points:
-//                     near incompressibility the field through them has swings that no material has.
-// Rows are averaged; von Mises, pressure and principal stresses are taken of the averaged row, so
-// that what a table shows fits together. Pressure is the mean stress tr(sigma)/3, positive in
-// tension.
+// Stress, dilatation and fibre stretch of one state of a body: at Gauss points, as means of
+// elements, at nodes.   [A23] eqs 17-21
+//   a row of values   Cauchy stress 11 22 33 12 23 13 [MPa] | J [-] | fibre stretch sqrt(I4_bar) of
+//                     each family [-]
+//   element mean      weighted with the shares of the Gauss points in the reference volume
+//   node, nodal_average   the trilinear field through the 8 Gauss points (hex27: closest to the
+//                         27), extrapolated to the node of the element
+//   node, nearest_gauss   the Gauss point closest to the node
+// Both are averaged over the elements at a node, weighted with their reference volume. The average
+// is taken within one region, because stress jumps between materials; a node between two regions
+// shows the region with the lower number. J stays within the values at the Gauss points of its
+// element: near incompressibility the extrapolated field oscillates. Rows are averaged first. Von
+// Mises, pressure and principal stresses are computed from the averaged row, so that the columns of
+// a table are consistent. Pressure is the mean stress tr(sigma)/3, positive in tension.
 #pragma once
 
 #include <span>
@@ -26,7 +28,8 @@ namespace langer {
 enum class StressAt { nodal_average, nearest_gauss };
 constexpr auto names(StressAt) { return std::array{"nodal_average", "nearest_gauss"}; }
 
-// What a solution says of the body, with what follows from it for every state.
+// The body of a solution, with everything that all its states share: geometry of the elements,
+// materials and fibre directions.
 class Body {
  public:
   // materials: one for all cells, or one per body of the mesh; the mesh must outlive this
@@ -42,18 +45,19 @@ class Body {
   }
   const ElementGeometry& geometry(int e) const { return geometry_[e]; }
   std::span<const Vec3> fibres(int e) const { return directions_.of(e); }  // unit, reference state
-  int n_families() const { return n_families_; }    // the most that any cell has
+  int n_families() const { return n_families_; }    // the largest number in any element
   int n_values() const { return 7 + n_families_; }  // length of a row
-  // Of a viscous body's state: sum of the branch stresses at the Gauss points of each cell [MPa];
-  // gauss_values() has those told last.
-  void tell_branches(std::vector<std::vector<Vec6>> branches) { branches_ = std::move(branches); }
+  // The state of a viscous body: the sum of its branch stresses at the Gauss points of each element
+  // [MPa]. gauss_values() adds the branches that were set last.
+  void set_branches(std::vector<std::vector<Vec6>> branches) { branches_ = std::move(branches); }
   std::span<const Vec6> branches(int e) const {
     if (branches_.empty()) return std::span<const Vec6>();
     return branches_[static_cast<std::size_t>(e)];
   }
   bool viscous() const { return ViscousPoints::needed(materials_); }
   const std::vector<Material>& materials() const { return materials_; }
-  // (cell, its local node) at a node, of the region that the node shows
+  // An element at a node and the number of the node in it. Only elements of the region that the
+  // node shows are listed.
   struct Corner {
     int cell, local;
   };
@@ -77,22 +81,22 @@ class Body {
 using ElementValues = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 ElementNodes element_displacements(const Mesh& mesh, const std::vector<Vec3>& u, int e);
-ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u,
-                           int e);  // u (n) [mm]; families a cell lacks: 1
+// The rows of an element, u (n) [mm]. Fibre families that its material lacks have stretch 1.
+ElementValues gauss_values(const Body& body, const std::vector<Vec3>& u, int e);
 VecX element_mean(const Body& body, int e, const ElementValues& gauss);
 Mat3 mean_deformation_gradient(const Body& body, const std::vector<Vec3>& u, int e);
 Vec3 gauss_position(const Mesh& mesh, int e, int g);  // reference [mm]
 
-// A state's Gauss values by element; elements not asked for are empty.
+// The Gauss values of a state by element. Elements that were not computed yet are empty.
 using GaussValues = std::vector<ElementValues>;
 GaussValues gauss_values(const Body& body, const std::vector<Vec3>& u);
-void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e,
-                      GaussValues& gauss);  // unless they are there
+// Computes the values of element e unless `gauss` has them.
+void add_gauss_values(const Body& body, const std::vector<Vec3>& u, int e, GaussValues& gauss);
 
-// needs the Gauss values of the elements at the node
+// The row of a node. `gauss` must have the values of the elements at the node.
 VecX node_values(const Body& body, int node, const GaussValues& gauss, StressAt at);
 
-// What a row holds.
+// The parts of a row.
 inline Mat3 sigma_of(const VecX& row) { return tensor(Vec6(row.head<6>())); }
 inline double J_of(const VecX& row) { return row[6]; }
 inline double fibre_stretch_of(const VecX& row, int family) { return row[7 + family]; }

@@ -13,9 +13,10 @@ namespace langer {
 
 namespace {
 
-constexpr double equally_near = 1.01;
-constexpr int far = 3;  // rings of cells in which a corner inside is looked for
+constexpr double equal_distance = 1.01;  // ratio up to which distances count as equal
+constexpr int most_rings = 3;            // of elements in which a corner inside is searched
 
+// The exponents of all monomials up to a degree, in x, y and z or in x and y.
 std::vector<std::array<int, 3>> powers_up_to(int degree, int dim) {
   std::vector<std::array<int, 3>> out;
   for (int i = 0; i <= degree; ++i)
@@ -31,6 +32,7 @@ double monomial(const Vec3& x, const std::array<int, 3>& powers) {
   return value;
 }
 
+// The mean of the corners of an element.
 Vec3 middle(const Mesh& mesh, int e) {
   Vec3 X = Vec3::Zero();
   const int n = mesh.cell().n_corners;
@@ -39,36 +41,50 @@ Vec3 middle(const Mesh& mesh, int e) {
   return X;
 }
 
-// least squares; of a patch that does not decide its polynomial the smallest one
+// Least squares. If the values do not determine the polynomial, the smallest one is taken.
 MatX fit(const MatX& A, const MatX& values) {
   const PivotedQr qr(A);
   if (qr.rank() == A.cols()) return qr.solve_columns(values);
   return LeastNorm(A, 1e-6).solve_columns(values);
 }
 
+// Adds a multiple of a matrix to a sum, which is empty at first.
+void add_scaled(MatX& sum, double factor, const MatX& term) {
+  if (sum.size() == 0) {
+    sum = factor * term;
+  } else {
+    sum += factor * term;
+  }
+}
+
 }  // namespace
 
 Patches::Patches(const Body& body) : body_(body) {
   const ReferenceCell& cell = body.mesh().cell();
-  dim_ = body.mesh().section ? 2 : 3;
-  degree_ = cell.second_order() ? 3 : 2;
+  dim_ = 3;
+  if (body.mesh().section) dim_ = 2;
+  degree_ = 2;
+  if (cell.second_order()) degree_ = 3;
   n_corners_ = cell.n_corners;
   in_corners_ = !cell.second_order();
   powers_of_nodes_ = powers_up_to(degree_, dim_);
   powers_of_points_ = powers_up_to(degree_ - 1, dim_);
   find_patches();
   find_inside();
-  find_deputies();
+  find_used_patches();
 }
 
+// The number of nodes with values of their own. In a section the nodes behind z = 0 repeat those in
+// front: node n has the values of node n % n_front_nodes().
+int Patches::n_front_nodes() const {
+  if (body_.mesh().section) return n_front(body_.mesh());
+  return body_.mesh().n_nodes();
+}
+
+// One patch for each corner and region: the elements around it, and its size.
 void Patches::find_patches() {
   const Mesh& mesh = body_.mesh();
-  int front = 0;
-  if (mesh.section) {
-    front = n_front(mesh);
-  } else {
-    front = mesh.n_nodes();
-  }
+  const int front = n_front_nodes();
   std::map<std::pair<int, int>, int> known;  // region, node
   patch_of_.resize(static_cast<std::size_t>(mesh.n_cells() * n_corners_));
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -87,7 +103,9 @@ void Patches::find_patches() {
         patch.size = std::max(patch.size, (mesh.X[n % front] - patch.centre).norm());
 }
 
-// not on the surface of the region, of a section of its outline
+// A corner is inside if no facet of its region's surface has it. In a section the surface is the
+// outline, without the facets in the planes of the section. A facet of the surface belongs to one
+// element of the region only.
 void Patches::find_inside() {
   const Mesh& mesh = body_.mesh();
   std::map<std::pair<int, std::array<int, 4>>, std::vector<Facet>> met;
@@ -100,68 +118,81 @@ void Patches::find_inside() {
         if (a < n_corners_) patches_[patch_at(facets[0].cell, a)].inside = false;
 }
 
-void Patches::find_deputies() {
+// A corner inside uses its own polynomial. Another corner uses those of the closest corners inside,
+// which are searched in growing rings of elements around it; several may be equally close. Without
+// any it uses its own.
+void Patches::find_used_patches() {
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     Patch& patch = patches_[p];
     if (patch.inside) {
-      patch.deputies = {static_cast<int>(p)};
+      patch.used = {static_cast<int>(p)};
       continue;
     }
+    const auto distance = [&](int q) {
+      return (patches_[q].centre - patch.centre).norm();
+    };
     std::set<int> cells(patch.cells.begin(), patch.cells.end());
-    for (int ring = 0; ring < far && patch.deputies.empty(); ++ring) {
+    for (int ring = 0; ring < most_rings && patch.used.empty(); ++ring) {
       std::set<int> corners;
       for (int e : cells)
         for (int a = 0; a < n_corners_; ++a) corners.insert(patch_at(e, a));
       double least = 1e300;
       for (int q : corners)
-        if (patches_[q].inside) least = std::min(least, (patches_[q].centre - patch.centre).norm());
+        if (patches_[q].inside) least = std::min(least, distance(q));
       for (int q : corners)
-        if (patches_[q].inside &&
-            (patches_[q].centre - patch.centre).norm() <= equally_near * least)
-          patch.deputies.push_back(q);
+        if (patches_[q].inside && distance(q) <= equal_distance * least) patch.used.push_back(q);
       for (int q : corners) cells.insert(patches_[q].cells.begin(), patches_[q].cells.end());
     }
-    if (patch.deputies.empty()) patch.deputies = {static_cast<int>(p)};
+    if (patch.used.empty()) patch.used = {static_cast<int>(p)};
   }
   for (const Patch& patch : patches_)
-    for (int q : patch.deputies) patches_[static_cast<std::size_t>(q)].serves = true;
+    for (int q : patch.used) patches_[static_cast<std::size_t>(q)].is_used = true;
 }
 
-double Patches::alone() const {
-  double whole = 0, alone = 0;
+double Patches::share_without_interior() const {
+  double whole = 0;
+  double without = 0;
   for (int e = 0; e < body_.mesh().n_cells(); ++e)
     for (int a = 0; a < n_corners_; ++a) {
       const double V = body_.geometry(e).V;
       whole += V;
-      if (const int p = patch_at(e, a); !patches_[patches_[p].deputies[0]].inside) alone += V;
+      const Patch& patch = patches_[patch_at(e, a)];
+      if (!patches_[patch.used[0]].inside) without += V;
     }
-  return alone / whole;
+  return without / whole;
 }
 
+// The monomials at a place, or their gradients. Coordinates are relative to the centre and the size
+// of the patch, so that the least squares problem is well conditioned.
 MatX Patches::terms(const Patch& patch, const Vec3& X, bool gradient) const {
   const Vec3 x = (X - patch.centre) / patch.size;
-  const auto& powers = gradient ? powers_of_nodes_ : powers_of_points_;
-  MatX out = MatX::Zero(static_cast<Eigen::Index>(powers.size()), gradient ? 3 : 1);
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (!gradient) out(row, 0) = monomial(x, powers[i]);
-    for (std::size_t k = 0; gradient && k < static_cast<std::size_t>(dim_); ++k) {
+  if (!gradient) {
+    MatX values(static_cast<Eigen::Index>(powers_of_points_.size()), 1);
+    for (std::size_t i = 0; i < powers_of_points_.size(); ++i)
+      values(static_cast<Eigen::Index>(i), 0) = monomial(x, powers_of_points_[i]);
+    return values;
+  }
+  const auto& powers = powers_of_nodes_;
+  MatX gradients = MatX::Zero(static_cast<Eigen::Index>(powers.size()), 3);
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
       if (powers[i][k] == 0) continue;
       std::array<int, 3> lower = powers[i];
       --lower[k];
-      out(row, static_cast<Eigen::Index>(k)) = powers[i][k] / patch.size * monomial(x, lower);
+      gradients(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          powers[i][k] / patch.size * monomial(x, lower);
     }
-  }
-  return out;
+  return gradients;
 }
 
+// The mean of the polynomials that a patch uses, at a place.
 MatX Patches::at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3& X,
                  bool gradient) const {
   MatX out;
-  for (int q : patch.deputies) {
+  for (int q : patch.used) {
     const auto p = static_cast<std::size_t>(q);
     const MatX here = fitted[p].transpose() * terms(patches_[p], X, gradient) /
-                      static_cast<double>(patch.deputies.size());
+                      static_cast<double>(patch.used.size());
     if (out.size() == 0) {
       out = here;
     } else {
@@ -171,79 +202,86 @@ MatX Patches::at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3
   return out;
 }
 
-Patches::Smooth Patches::told_in_corners(std::vector<MatX> fitted, bool gradient) const {
+// A smooth field from the fitted coefficients; for hex8 from its values at the corners.
+Patches::Smooth Patches::smooth_field(std::vector<MatX> fitted, bool gradient) const {
   Smooth out;
   out.patches_ = this;
-  if (!in_corners_)
-    out.of_ = std::move(fitted);
-  else
-    for (const Patch& patch : patches_)
-      out.of_.push_back(at(fitted, patch, patch.centre, gradient));
+  if (!in_corners_) {
+    out.fitted_ = std::move(fitted);
+    return out;
+  }
+  for (const Patch& patch : patches_)
+    out.fitted_.push_back(at(fitted, patch, patch.centre, gradient));
   return out;
 }
 
-MatX Patches::blended(const std::vector<MatX>& of, int e, int g, bool gradient) const {
+// The sum of the fields of the corners times the trilinear shape functions L of the corners.
+MatX Patches::blended(const std::vector<MatX>& fitted, int e, int g, bool gradient) const {
   const ReferenceCell& cell = body_.mesh().cell();
   const VecX L = cell.corner_shape(cell.gauss[static_cast<std::size_t>(g)]);
-  const Vec3 X = in_corners_ ? Vec3(Vec3::Zero()) : gauss_position(body_.mesh(), e, g);
+  Vec3 X = Vec3::Zero();
+  if (!in_corners_) X = gauss_position(body_.mesh(), e, g);
   MatX out;
   for (int a = 0; a < n_corners_; ++a) {
     const auto p = static_cast<std::size_t>(patch_at(e, a));
-    if (a == 0)
-      out = L[a] * (in_corners_ ? of[p] : at(of, patches_[p], X, gradient));
-    else if (in_corners_)
-      out += L[a] * of[p];
-    else
-      out += L[a] * at(of, patches_[p], X, gradient);
+    if (in_corners_) {
+      add_scaled(out, L[a], fitted[p]);
+    } else {
+      add_scaled(out, L[a], at(fitted, patches_[p], X, gradient));
+    }
   }
   return out;
 }
 
-Patches::Smooth Patches::of_nodes(const MatX& values) const {
+// A least squares fit of the nodal values on each patch whose polynomial is used. All fields of a
+// patch share one factorization.
+Patches::Smooth Patches::fit_nodal_fields(const MatX& values) const {
   const Mesh& mesh = body_.mesh();
-  int front = 0;
-  if (mesh.section) {
-    front = n_front(mesh);
-  } else {
-    front = mesh.n_nodes();
-  }
+  const int front = n_front_nodes();
   std::vector<MatX> fitted;
   for (const Patch& patch : patches_) {
     std::set<int> nodes;
     for (int e : patch.cells)
       for (int n : mesh.cell(e)) nodes.insert(n % front);
     MatX A(static_cast<Eigen::Index>(nodes.size()),
-           static_cast<Eigen::Index>(powers_of_nodes_.size())),
-        b(A.rows(), values.cols());
+           static_cast<Eigen::Index>(powers_of_nodes_.size()));
+    MatX b(A.rows(), values.cols());
     Eigen::Index row = 0;
     for (int n : nodes) {
       const Vec3 x = (mesh.X[static_cast<std::size_t>(n)] - patch.centre) / patch.size;
       for (std::size_t i = 0; i < powers_of_nodes_.size(); ++i)
         A(row, static_cast<Eigen::Index>(i)) = monomial(x, powers_of_nodes_[i]);
-      b.row(row++) = values.row(n);
+      b.row(row) = values.row(n);
+      ++row;
     }
-    fitted.push_back(patch.serves ? fit(A, b) : MatX());
+    MatX& coefficients = fitted.emplace_back();
+    if (patch.is_used) coefficients = fit(A, b);
   }
-  return told_in_corners(std::move(fitted), true);
+  return smooth_field(std::move(fitted), true);
 }
 
-Patches::Smooth Patches::of_points(const std::vector<MatX>& values) const {
+// The same for values at Gauss points. hex8 have one value per element, in its middle.
+Patches::Smooth Patches::fit_gauss_fields(const std::vector<MatX>& values) const {
   const Mesh& mesh = body_.mesh();
   std::vector<MatX> fitted;
   for (const Patch& patch : patches_) {
     const Eigen::Index points = values[0].rows();
     const auto n = static_cast<Eigen::Index>(patch.cells.size()) * points;
-    MatX A(n, static_cast<Eigen::Index>(powers_of_points_.size())), b(n, values[0].cols());
+    MatX A(n, static_cast<Eigen::Index>(powers_of_points_.size()));
+    MatX b(n, values[0].cols());
     Eigen::Index row = 0;
     for (int e : patch.cells)
       for (Eigen::Index g = 0; g < points; ++g) {
-        const Vec3 X = points > 1 ? gauss_position(mesh, e, static_cast<int>(g)) : middle(mesh, e);
+        Vec3 X = middle(mesh, e);
+        if (points > 1) X = gauss_position(mesh, e, static_cast<int>(g));
         A.row(row) = terms(patch, X, false).transpose();
-        b.row(row++) = values[static_cast<std::size_t>(e)].row(g);
+        b.row(row) = values[static_cast<std::size_t>(e)].row(g);
+        ++row;
       }
-    fitted.push_back(patch.serves ? fit(A, b) : MatX());
+    MatX& coefficients = fitted.emplace_back();
+    if (patch.is_used) coefficients = fit(A, b);
   }
-  return told_in_corners(std::move(fitted), false);
+  return smooth_field(std::move(fitted), false);
 }
 
 }  // namespace langer

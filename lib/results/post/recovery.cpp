@@ -9,7 +9,7 @@ namespace langer {
 
 namespace {
 
-// averages of the cells of one region at its nodes, (n, 6)
+// The averages of the elements of one region at its nodes (n), weighted with their volume.
 std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int region) {
   const Mesh& mesh = body.mesh();
   const ReferenceCell& cell = mesh.cell();
@@ -30,18 +30,19 @@ std::vector<Vec6> smoothed(const Body& body, const GaussValues& gauss, int regio
   return sum;
 }
 
-// Greatest difference of the von Mises stress between a cell and the average, over the nodes of all
-// cells at a node: at the node itself, where a corner belongs to one cell alone or cells mirror
-// each other, there may be none.
+// The greatest difference of the von Mises stress between an element and the average, over the
+// nodes of all elements at a node. The node alone is not enough: a corner may belong to one
+// element only, or elements may mirror each other, and then there is no difference.
 double spread_around(const Body& body, const GaussValues& gauss, const std::vector<Vec6>& smooth,
                      int region, int node) {
   const Mesh& mesh = body.mesh();
   const ReferenceCell& cell = mesh.cell();
   std::vector<char> is_near(mesh.X.size(), 0);
-  for (int e = 0; e < mesh.n_cells(); ++e)
-    if (const auto nodes = mesh.cell(e);
-        body.region(e) == region && std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      for (int n : nodes) is_near[n] = 1;
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto nodes = mesh.cell(e);
+    if (body.region(e) != region || std::ranges::find(nodes, node) == nodes.end()) continue;
+    for (int n : nodes) is_near[n] = 1;
+  }
   double spread = 0;
   for (int e = 0; e < mesh.n_cells(); ++e) {
     if (body.region(e) != region) continue;
@@ -55,9 +56,10 @@ double spread_around(const Body& body, const GaussValues& gauss, const std::vect
   return spread;
 }
 
-double deviatoric(const Vec6& stress) {
+// |dev s|^2
+double deviatoric_square(const Vec6& stress) {
   return std::pow(von_mises(tensor(stress)), 2) / 1.5;
-}  // |dev s|^2
+}
 
 int n_regions(const Body& body) {
   int regions = 1;
@@ -65,14 +67,19 @@ int n_regions(const Body& body) {
   return regions;
 }
 
+// The squares of e and U.
 struct Energies {
-  double error = 0, whole = 0;
+  double error = 0;
+  double whole = 0;
+
   double eta() const {
     if (whole > 0) return std::sqrt(error / whole);
     return 0;
   }
 };
-// of_cell: where the error of each is put, or nullptr
+
+// Adds the energies of one region. The error of each element is written to of_cell unless it is
+// nullptr.
 void add_region(Energies& energies, const Body& body, const GaussValues& gauss,
                 const std::vector<Vec6>& smooth, int region, std::vector<double>* of_cell) {
   const Mesh& mesh = body.mesh();
@@ -85,8 +92,8 @@ void add_region(Energies& energies, const Body& body, const GaussValues& gauss,
       Vec6 s = Vec6::Zero();
       for (int a = 0; a < cell.n_nodes; ++a) s += cell.N[g][a] * smooth[mesh.cell(e)[a]];
       const double w = body.geometry(e).w[g] * gauss[e](g, 6) / (4 * mu);
-      energies.error += w * deviatoric(s - gauss[e].row(g).head<6>().transpose());
-      energies.whole += w * deviatoric(s);
+      energies.error += w * deviatoric_square(s - gauss[e].row(g).head<6>().transpose());
+      energies.whole += w * deviatoric_square(s);
     }
     if (of_cell) (*of_cell)[static_cast<std::size_t>(e)] = energies.error - before;
   }
@@ -102,6 +109,8 @@ double recovered_energy_share(const Body& body, const std::vector<Vec3>& u) {
   return energies.eta() * energies.eta();
 }
 
+// The same energies, and in addition the parts of the elements and the spread at the greatest von
+// Mises stress.
 RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
   const Mesh& mesh = body.mesh();
   const GaussValues gauss = gauss_values(body, u);
@@ -114,11 +123,12 @@ RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
     int worst = -1;
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (body.region(e) != region) continue;
-      for (int node : mesh.cell(e))
-        if (const double here = von_mises(tensor(smooth[node])); here > out.von_mises_max) {
-          out.von_mises_max = here;
-          worst = node;
-        }
+      for (int node : mesh.cell(e)) {
+        const double here = von_mises(tensor(smooth[node]));
+        if (!(here > out.von_mises_max)) continue;
+        out.von_mises_max = here;
+        worst = node;
+      }
     }
     if (worst >= 0) out.von_mises_spread = spread_around(body, gauss, smooth, region, worst);
   }

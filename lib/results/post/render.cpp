@@ -21,7 +21,7 @@ constexpr int most_patches = 6000;
 const Colour ink{0.13, 0.13, 0.13}, steel{0.80, 0.82, 0.85}, paper{0.93, 0.92, 0.89},
     grey{0.45, 0.47, 0.50}, vermilion{0.835, 0.369, 0}, blue{0, 0.447, 0.698};
 
-// One thing to paint; those further from the eye come first.
+// A part of the picture. Items farther from the eye are painted first.
 struct Item {
   double depth = 0;
   std::vector<std::variant<Patch, Stroke, Label>> marks;
@@ -38,12 +38,12 @@ Mat3 eye(const std::array<double, 2>& view) {
   return R;
 }
 
-// light from above, left and in front of the eye; the shadow side keeps enough of its colour to be
-// read
+// Light from above, left and in front of the eye. The shadow side keeps enough of its colour to
+// be readable.
 double light(const Vec3& n) { return std::max(0.0, n.dot(Vec3(-0.35, 0.80, 0.49).normalized())); }
 double shade(const Vec3& n) { return 0.74 + 0.26 * light(n); }
 
-// Seen positions to the page.
+// From positions in the eye's axes to the page.
 struct Page {
   double scale = 1, left = 0, top = 0;  // [pt/mm], page position of (0, 0)
   PagePoint operator()(const Vec3& seen) const {
@@ -51,8 +51,8 @@ struct Page {
   }
 };
 
-Vec3 normal_of(
-    const std::vector<Vec3>& corners) {  // Newell's sum: also of polygons that are not plane
+// The unit normal of a polygon by Newell's sum, which also works for polygons that are not plane.
+Vec3 normal_of(const std::vector<Vec3>& corners) {
   Vec3 n = Vec3::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i)
     n += corners[i].cross(corners[(i + 1) % corners.size()]);
@@ -65,16 +65,16 @@ double mean_depth(const std::vector<Vec3>& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
+// Draws the colour bar at the right of the picture, with its label above and the axes below it.
 void add_colour_bar(Drawing& drawing, double title_room, double low, double high,
                     const std::string& label, double bar_room, ColourMap colours) {
   constexpr int bands = 128;
-  // label above, the axes below
   const double x = drawing.width - bar_room + 30;
   const double width = 22;
   const double height = std::min(300.0, drawing.height - title_room - 190);
   const double top = title_room + (drawing.height - title_room - height - 100) / 2;
   for (int i = 0; i < bands; ++i) {
-    // from the top, each down to the end: no seams
+    // Each band reaches down to the end of the bar, so that no seams are seen.
     const double y0 = top + height * i / bands;
     const double y1 = top + height;
     drawing.marks.push_back(Patch{{{x, y0}, {x + width, y0}, {x + width, y1}, {x, y1}},
@@ -91,10 +91,12 @@ void add_colour_bar(Drawing& drawing, double title_room, double low, double high
     drawing.marks.push_back(Stroke{{{x + width, y}, {x + width + 5, y}}, ink, 0.8});
     drawing.marks.push_back(Label{{x + width + 9, y + 4.5}, texts[i], 13});
   }
-  add_lines_above(drawing, {drawing.width - margin, top - 16}, label, 14,
-                  bar_room < 150 ? bar_room + 40 : drawing.width);
+  double label_room = drawing.width;
+  if (bar_room < 150) label_room = bar_room + 40;  // a narrow page
+  add_lines_above(drawing, {drawing.width - margin, top - 16}, label, 14, label_room);
 }
 
+// Draws the directions of x, y and z in the lower right corner.
 void add_axes(Drawing& drawing, const Mat3& R, double bar_room) {
   const PagePoint origin{drawing.width - bar_room + 60, drawing.height - margin - 36};
   for (int i = 0; i < 3; ++i) {
@@ -108,7 +110,8 @@ void add_axes(Drawing& drawing, const Mat3& R, double bar_room) {
   }
 }
 
-// Edges where the surface turns by more than 40 degrees.
+// Edges at which the normal of the surface turns by more than 40 degrees, and edges of its
+// border.
 std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>>& surface,
                                             const std::vector<Vec3>& x) {
   std::map<std::array<int, 2>, std::vector<Vec3>> normals;
@@ -126,6 +129,7 @@ std::vector<std::array<int, 2>> sharp_edges(const std::vector<std::array<int, 4>
   return edges;
 }
 
+// An arrow on the page: a line and a triangle.
 void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, const Colour& colour) {
   const double dx = to[0] - from[0];
   const double dy = to[1] - from[1];
@@ -141,12 +145,14 @@ void add_arrow(Drawing& drawing, const PagePoint& from, const PagePoint& to, con
                                 colour});
 }
 
-// its ends, as long as a share of the body
+// The ends of an arrow at a node. Its length is a fraction of the size of the body: a movement
+// starts at the node, a support ends there.
 std::pair<Vec3, Vec3> arrow_of(const Action& action, const Vec3& at, double size) {
   if (action.moves) return {at, at + 0.17 * size * action.along};
   return {at - 0.07 * size * action.along, at};
 }
 
+// Marks the named points with a dot and their name.
 void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page) {
   for (const auto& [name, x] : scene.points) {
     const PagePoint at = page(R * x);
@@ -157,7 +163,7 @@ void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const
                          at[1] + radius * std::sin(k * std::numbers::pi / 10)});
       drawing.marks.push_back(Patch{round, colour});
     }
-    // black on white, so that it is read on any ground
+    // The name is black on white, so that it can be read on any ground.
     drawing.marks.push_back(
         Patch{{{at[0] + 6, at[1] - 6},
                {at[0] + 9 + 11.0 * static_cast<double>(name.size()), at[1] - 6},
@@ -168,30 +174,41 @@ void add_points(Drawing& drawing, const RenderScene& scene, const Mat3& R, const
   }
 }
 
+// A label at the left of its arrow ends there, one at the right begins there.
+Label::Anchor anchor_beyond(double to_the_right) {
+  if (to_the_right > 0.3) return Label::Anchor::start;
+  if (to_the_right < -0.3) return Label::Anchor::end;
+  return Label::Anchor::middle;
+}
+
+// The end of an action's arrow that is away from the body.
+Vec3 outer_end(const Action& action, const Vec3& at, double size) {
+  const auto [from, to] = arrow_of(action, at, size);
+  if (action.moves) return to;
+  return from;
+}
+
+// Draws the arrows of supports (blue) and movements (vermilion). The label of an action is at its
+// arrow closest to the eye.
 void add_actions(Drawing& drawing, const RenderScene& scene, const Mat3& R, const Page& page,
                  double size) {
   for (const Action& action : scene.actions) {
     const Colour& colour = action.moves ? vermilion : blue;
-    Vec3 end = Vec3::Zero();  // of the arrow nearest to the eye: there it says what
-    double nearest = -std::numeric_limits<double>::infinity();
+    Vec3 end = Vec3::Zero();
+    double closest = -std::numeric_limits<double>::infinity();
     for (const Vec3& x : action.at) {
       const auto [from, to] = arrow_of(action, x, size);
       add_arrow(drawing, page(R * from), page(R * to), colour);
-      if ((R * x)[2] > nearest) {
-        nearest = (R * x)[2];
-        end = action.moves ? to : from;
+      if ((R * x)[2] > closest) {
+        closest = (R * x)[2];
+        end = outer_end(action, x, size);
       }
     }
-    const Vec3 out = action.moves ? action.along : Vec3(-action.along);
-    const PagePoint at = page(R * Vec3(end + 0.035 * size * out));
-    const double side = (R * out)[0];
-    drawing.marks.push_back(Label{{at[0], at[1] + 5},
-                                  action.says,
-                                  16,
-                                  side > 0.3    ? Label::Anchor::start
-                                  : side < -0.3 ? Label::Anchor::end
-                                                : Label::Anchor::middle,
-                                  true});
+    Vec3 outwards = action.along;
+    if (!action.moves) outwards = -action.along;
+    const PagePoint at = page(R * Vec3(end + 0.035 * size * outwards));
+    const Label::Anchor anchor = anchor_beyond((R * outwards)[0]);
+    drawing.marks.push_back(Label{{at[0], at[1] + 5}, action.says, 16, anchor, true});
   }
 }
 
@@ -207,8 +224,10 @@ std::vector<Complaint> RenderChoice::complaints() const {
   return found;
 }
 
+// Counts the kept elements at each facet: a facet of one element is on the surface.
 std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept) {
-  std::map<std::array<int, 4>, std::pair<int, Facet>> seen;  // how often, the last
+  // For each facet the number of its elements and the last of them.
+  std::map<std::array<int, 4>, std::pair<int, Facet>> seen;
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int f = 0; kept[e] && f < mesh.cell().n_facets(); ++f) {
       auto& entry = seen[facet_key(mesh, {e, f})];
@@ -226,11 +245,12 @@ std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vecto
 
 namespace {
 
+// Which elements are shown: those whose centre is on the kept side of all cuts.
 std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
   std::vector<bool> kept(static_cast<std::size_t>(mesh.n_cells()), true);
   for (const Cut& cut : cuts) {
-    if (mesh.section && cut.axis == CutNormal::z)
-      continue;  // it lies in such a plane: a cut beside it would leave nothing
+    // A section is in a plane of constant z. Cutting it there would leave nothing.
+    if (mesh.section && cut.axis == CutNormal::z) continue;
     for (int e = 0; e < mesh.n_cells(); ++e) {
       const double centre = element_nodes(mesh, e).col(static_cast<int>(cut.axis)).mean();
       if ((centre > cut.at) != (cut.keep == Side::above)) kept[e] = false;
@@ -239,7 +259,7 @@ std::vector<bool> cells_kept(const Mesh& mesh, const std::vector<Cut>& cuts) {
   return kept;
 }
 
-// by the first plane that meets it
+// The outline of an indenter, cut open by the first plane that meets it.
 OpenedOutline opened(const Outline& outline, const std::vector<Cut>& cuts) {
   for (const Cut& cut : cuts) {
     const int axis = static_cast<int>(cut.axis);
@@ -247,13 +267,14 @@ OpenedOutline opened(const Outline& outline, const std::vector<Cut>& cuts) {
       return x[axis] < cut.at;
     };
     const auto n = std::count_if(outline.points.begin(), outline.points.end(), below);
-    if (n > 0 && n < static_cast<std::ptrdiff_t>(outline.points.size()))
-      return cut_open(outline, axis, cut.at, cut.keep == Side::above ? 1 : -1);
+    if (n == 0 || n == static_cast<std::ptrdiff_t>(outline.points.size())) continue;
+    const int side = cut.keep == Side::above ? 1 : -1;
+    return cut_open(outline, axis, cut.at, side);
   }
   return {outline, {}};
 }
 
-// What is painted, in the eye's axes.
+// Everything that is painted, in the eye's axes.
 struct Seen {
   struct Quad {
     std::array<int, 4> nodes;
@@ -265,11 +286,13 @@ struct Seen {
   std::vector<std::array<int, 2>> outline;  // of the undeformed body
   Eigen::AlignedBox3d box;
   double extent = 1;
-  double low = std::numeric_limits<double>::infinity(),
-         high = -std::numeric_limits<double>::infinity();  // of the field
+  // The range of the field in the visible quads.
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
   bool coloured = false;
 };
 
+// Turns the outlines of the indenters into the eye's axes, cut open by the planes of the config.
 void look_at_indenters(const RenderScene& scene, const RenderChoice& choice, Seen& seen) {
   for (const Outline& indenter : scene.indenters) {
     OpenedOutline& part = seen.indenters.emplace_back(opened(indenter, choice.cuts));
@@ -281,11 +304,19 @@ void look_at_indenters(const RenderScene& scene, const RenderChoice& choice, See
   }
 }
 
+// A section is seen from the front, a body from above.
+std::array<double, 2> default_view(const Mesh& mesh) {
+  if (mesh.section) return {0, 0};
+  return {35, 28};
+}
+
+// Finds what the eye sees: the quads of the surface that face it, indenters, outline and arrows,
+// with their common bounding box and the range of the colours.
 Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
   const Mesh& mesh = scene.mesh;
   Seen seen;
-  const Mat3& R = seen.R =
-      eye(choice.view.value_or(scene.mesh.section ? std::array{0., 0.} : std::array{35., 28.}));
+  seen.R = eye(choice.view.value_or(default_view(mesh)));
+  const Mat3& R = seen.R;
   std::vector<Vec3> x;
   for (const Vec3& place : scene.x) x.push_back(R * place);
   for (const auto& nodes : outer_surface(mesh, cells_kept(mesh, choice.cuts))) {
@@ -307,15 +338,11 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
     for (const auto& edge : seen.outline)
       for (int node : edge) seen.box.extend(Vec3(R * mesh.X[node]));
   }
-  if (seen.box.isEmpty()) {
-    seen.extent = 1;
-  } else {
-    seen.extent = seen.box.sizes().norm();
-  }
+  if (!seen.box.isEmpty()) seen.extent = seen.box.sizes().norm();
+  // The picture has room for the arrows and for their labels on both sides.
   for (const Action& action : scene.actions)
     for (const Vec3& at : action.at) {
-      const auto [from, to] = arrow_of(action, at, seen.extent);
-      const Vec3 far = R * Vec3(action.moves ? to : from);
+      const Vec3 far = R * outer_end(action, at, seen.extent);
       const Vec3 label(0.11 * seen.extent, 0.04 * seen.extent, 0);
       seen.box.extend(far);
       seen.box.extend(far + label);
@@ -325,16 +352,18 @@ Seen look_at(const RenderScene& scene, const RenderChoice& choice) {
     seen.low = (*choice.range)[0];
     seen.high = (*choice.range)[1];
   }
-  seen.coloured =
-      !scene.values.empty() && seen.low <= seen.high;  // nothing to be seen, no colour bar
+  // If no quad is visible, there is no range of values.
+  seen.coloured = !scene.values.empty() && seen.low <= seen.high;
   if (!(seen.high - seen.low > 1e-12 * std::max(std::abs(seen.low), std::abs(seen.high)))) {
-    // one value everywhere
+    // The values are equal. A scale needs a width.
     seen.low -= 0.5;
     seen.high += 0.5;
   }
   return seen;
 }
 
+// Adds the quads of the body. Each is divided into m x m parts of one colour, fewer if there are
+// many quads.
 void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, ColourMap colours,
                 std::vector<Item>& items) {
   const int m = std::clamp(
@@ -358,8 +387,7 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, Co
       for (int k = 0; k < 4; ++k) value += N[k] * scene.values[quad.nodes[k]];
       return shaded(scale_colour((value - seen.low) / (seen.high - seen.low), colours), s);
     };
-    // below the parts of a quad the quad itself, so that the page does not shine through between
-    // them
+    // The whole quad is painted below its parts, so that the page is not seen between them.
     item.marks.push_back(Patch{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, colour_at(0.5, 0.5)});
     for (int i = 0; i < m && m > 1 && seen.coloured; ++i)
       for (int j = 0; j < m; ++j) {
@@ -375,6 +403,7 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, Co
   }
 }
 
+// Adds the faces of an indenter that face the eye, the faces of a cut, and lines of its outline.
 void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector<Item>& items) {
   const auto at = [](const Outline& outline, const std::vector<int>& line) {
     std::vector<Vec3> corners;
@@ -409,29 +438,37 @@ void paint_indenter(const OpenedOutline& indenter, const Page& page, std::vector
 
 }  // namespace
 
+// The body is scaled to the page, painted from back to front, and then annotated: outline,
+// arrows, points, colour bar and axes are never hidden.
 Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look) {
   const Seen seen = look_at(scene, choice);
   const bool titled = look.titles && !choice.title.empty();
-  const double title_room = titled ? 40 : 0, page_width = look.width.value_or(960),
-               bar_room = page_width < 500 ? 118 : 150;
+  double title_room = 0;
+  if (titled) title_room = 40;
+  const double page_width = look.width.value_or(960);
+  double bar_room = 150;
+  if (page_width < 500) bar_room = 118;
   const double room = page_width - bar_room - 2 * margin;
   const double tallest = page_width / 1.5;
-  const Vec3 size = seen.box.isEmpty() ? Vec3(1, 1, 1) : Vec3(seen.box.sizes());
+  Vec3 size(1, 1, 1);
+  Vec3 middle(0, 0, 0);
+  if (!seen.box.isEmpty()) {
+    size = seen.box.sizes();
+    middle = seen.box.center();
+  }
   Page page;
   page.scale = std::min(room / size[0], tallest / size[1]);
   Drawing drawing;
   drawing.width = page_width;
   drawing.height = std::round(
       std::max(std::min(400.0, 0.8 * page_width), page.scale * size[1] + 2 * margin + title_room));
-  const Vec3 middle = seen.box.isEmpty() ? Vec3(0, 0, 0) : Vec3(seen.box.center());
   page.left = margin + room / 2 - page.scale * middle[0];
   page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
 
   std::vector<Item> items;
   paint_body(scene, seen, page, look.colours, items);
   for (const OpenedOutline& indenter : seen.indenters) paint_indenter(indenter, page, items);
-  std::stable_sort(items.begin(), items.end(),
-                   [](const Item& a, const Item& b) { return a.depth < b.depth; });
+  std::ranges::stable_sort(items, {}, &Item::depth);
   for (Item& item : items)
     std::move(item.marks.begin(), item.marks.end(), std::back_inserter(drawing.marks));
   for (const auto& edge : seen.outline)
@@ -442,15 +479,11 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look&
   if (seen.coloured)
     add_colour_bar(drawing, title_room, seen.low, seen.high, scene.label, bar_room, look.colours);
   add_axes(drawing, seen.R, bar_room);
-  if (titled)
-    drawing.marks.push_back(Label{{page_width / 2, margin + 12},
-                                  choice.title,
-                                  17,
-                                  Label::Anchor::middle,
-                                  false,
-                                  false,
-                                  0,
-                                  true});
+  if (titled) {
+    Label title{{page_width / 2, margin + 12}, choice.title, 17, Label::Anchor::middle};
+    title.own = true;
+    drawing.marks.push_back(title);
+  }
   return drawing;
 }
 

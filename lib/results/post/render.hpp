@@ -1,9 +1,13 @@
 // A picture of the deformed body: its outer surface in orthographic projection, coloured by a
-// field, with colour bar, axes and the rigid indenters. Painted from back to front; made without a
-// display.
-//   view  azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane [deg]
-//   outline  the edges of the undeformed body; points  named places, with their names; actions  what holds and moves the body
-//   cuts  only the cells on one side of each plane are shown; the first plane that meets an indenter cuts it too
+// field, with colour bar, axes and the rigid indenters. Everything is painted from back to front
+// (painter's algorithm), so that no display or graphics library is needed.
+//   view      azimuth: turned about the y axis, 0 looks along -z; elevation above the x-z plane
+//             [deg]
+//   outline   the edges of the undeformed body
+//   points    named places, with their names
+//   actions   supports and imposed displacements
+//   cuts      only the elements on one side of each plane are shown. The first plane that meets an
+//             indenter cuts it too.
 #pragma once
 
 #include <array>
@@ -23,6 +27,7 @@ constexpr auto names(CutNormal) { return std::array{"x", "y", "z"}; }
 enum class Side { below, above };
 constexpr auto names(Side) { return std::array{"below", "above"}; }
 
+// A plane that cuts the body open.
 struct Cut {
   CutNormal axis = CutNormal::z;
   double at = 0;
@@ -34,6 +39,7 @@ struct Cut {
   }
 };
 
+// The listing `renders`: one picture of the body.
 struct RenderChoice {
   std::optional<Quantity> field;
   int family = 1;
@@ -55,39 +61,41 @@ struct RenderChoice {
       "azimuth and elevation of the eye; none: 35 and 28, of a section 0 and 0",
       between(-360, 360));
     v(&RenderChoice::cuts, "cuts", unit::none,
-      "planes; the cells on one side of each are left out");
+      "planes; the elements on one side of each are left out");
     v(&RenderChoice::range, "range", unit::none,
       "values at the ends of the colour bar, in the field's unit; by default those shown");
     v(&RenderChoice::points, "points", unit::none, "observation points that are marked and named");
     v(&RenderChoice::outline, "outline", unit::none, "draw the edges of the undeformed body");
     v(&RenderChoice::actions, "actions", unit::none,
-      "draw supports and imposed displacements with what they impose");
+      "draw supports and imposed displacements with their values");
     v(&RenderChoice::title, "title", unit::none, "above the picture");
   }
   std::vector<Complaint> complaints() const;
 };
 
-// A displacement that is imposed on a set of nodes: 0 is a support.
+// A displacement that is imposed on a set of nodes; 0 is a support.
 struct Action {
   std::vector<Vec3> at;        // some of its nodes, deformed [mm]
-  Vec3 along = Vec3::UnitX();  // unit: the way it goes; of a support from outside to the body
+  Vec3 along = Vec3::UnitX();  // unit vector of the movement; of a support from outside to the body
   bool moves = false;
-  std::string says;  // "u_x = 18 mm"
+  std::string says;  // its label: "u_x = 18 mm"
 };
 
+// The deformed body and everything drawn with it.
 struct RenderScene {
   const Mesh& mesh;
   std::vector<Vec3> x;             // deformed positions (n) [mm]
-  std::vector<double> values;      // of the field (n); empty without one
+  std::vector<double> values;      // of the field (n); empty without a field
   std::string label;               // of the colour bar, with unit; enhanced text
-  std::vector<Outline> indenters;  // where they are now
+  std::vector<Outline> indenters;  // at their present position
   std::vector<std::pair<std::string, Vec3>> points = {};  // deformed [mm]
   std::vector<Action> actions = {};
 };
 
 Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look& look = {});
 
-// Facets that belong to one of the kept cells only, corners counter-clockwise from outside.
+// The facets that belong to exactly one of the kept elements, corners counter-clockwise seen from
+// outside.
 std::vector<std::array<int, 4>> outer_surface(const Mesh& mesh, const std::vector<bool>& kept);
 
 }  // namespace langer

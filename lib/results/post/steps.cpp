@@ -8,7 +8,9 @@ namespace langer {
 std::optional<StepChoice> parse_step(const std::string& text) {
   StepChoice choice;
   if (text == "last") return choice;
-  const char *begin = text.data(), *end = begin + text.size();
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  // The number must reach to the end of the text.
   const auto whole = [&](const auto& read) {
     return read.ec == std::errc{} && read.ptr == end;
   };
@@ -26,13 +28,27 @@ std::optional<StepChoice> parse_step(const std::string& text) {
   return {};
 }
 
+namespace {
+
+// The column that a choice by value refers to.
+const std::vector<double>& column_of(const StepChoice& choice, const std::vector<double>& t,
+                                     const std::vector<double>& u_ind) {
+  if (choice.by == StepChoice::By::t) return t;
+  return u_ind;
+}
+
+}  // namespace
+
 int row_of(const StepChoice& choice, const std::vector<double>& t,
            const std::vector<double>& u_ind) {
   const int n = static_cast<int>(t.size());
   if (choice.by == StepChoice::By::last) return n - 1;
-  if (choice.by == StepChoice::By::row) return choice.row < n ? choice.row : -1;
-  const std::vector<double>& reached = choice.by == StepChoice::By::t ? t : u_ind;
-  // t is a sum of increments: as many rounding errors as steps
+  if (choice.by == StepChoice::By::row) {
+    if (choice.row < n) return choice.row;
+    return -1;
+  }
+  // t is a sum of increments and has as many rounding errors as steps.
+  const std::vector<double>& reached = column_of(choice, t, u_ind);
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (reached[i] >= choice.value - 1e-12) return static_cast<int>(i);
   return -1;
@@ -40,9 +56,9 @@ int row_of(const StepChoice& choice, const std::vector<double>& t,
 
 bool is_exact(const StepChoice& choice, int row, const std::vector<double>& t,
               const std::vector<double>& u_ind) {
-  if (choice.by == StepChoice::By::last || choice.by == StepChoice::By::row) return row >= 0;
-  return row >= 0 &&
-         std::abs((choice.by == StepChoice::By::t ? t : u_ind)[row] - choice.value) <= 1e-9;
+  if (row < 0) return false;
+  if (choice.by == StepChoice::By::last || choice.by == StepChoice::By::row) return true;
+  return std::abs(column_of(choice, t, u_ind)[row] - choice.value) <= 1e-9;
 }
 
 }  // namespace langer

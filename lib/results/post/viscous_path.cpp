@@ -7,6 +7,7 @@ ViscousPath::ViscousPath(const Body& body)
               body.mesh().cell().n_gauss),
       u_(body.mesh().X.size(), Vec3::Zero()) {}
 
+// The branches of a step follow from the displacements at its two ends and its duration.
 void ViscousPath::add(const Body& body, double time, const std::vector<Vec3>& u) {
   points_.begin(time - time_);
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
@@ -19,10 +20,10 @@ void ViscousPath::add(const Body& body, double time, const std::vector<Vec3>& u)
   u_ = u;
 }
 
-void ViscousPath::tell(Body& body) const {
+void ViscousPath::update(Body& body) const {
   std::vector<std::vector<Vec6>> branches;
   for (int e = 0; e < body.mesh().n_cells(); ++e) branches.push_back(points_.stresses(e));
-  body.tell_branches(std::move(branches));
+  body.set_branches(std::move(branches));
 }
 
 }  // namespace langer

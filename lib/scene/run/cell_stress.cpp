@@ -23,7 +23,7 @@ void CellStressRecorder::kept(const StepRecord& step) {
 void CellStressRecorder::add(StepRecord& whole) {
   if (!body_) return;
   kept(whole);
-  if (branches_) branches_->tell(*body_);
+  if (branches_) branches_->update(*body_);
   std::vector<double> stress, values[3], directions[3];
   for (int e = 0; e < body_->mesh().n_cells(); ++e) {
     const VecX row = gauss_values(*body_, whole.u, e).colwise().mean().transpose();

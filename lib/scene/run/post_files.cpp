@@ -60,7 +60,7 @@ void BranchRows::go_to(int row) {
     const StepRecord next = solution_.step(row_);
     path_->add(body_, next.scalars.at("time"), next.u);
   }
-  path_->tell(body_);
+  path_->update(body_);
 }
 
 Formulation formulation_of(const SolutionHeader& header, const std::string& path) {
