@@ -131,7 +131,7 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
     }
     const bool goes_on =
         at_a_point && !model.at_a_point();  // the mesh, from the steps of the point
-    if (!goes_on) forget_steps(job.output);
+    if (!goes_on) discard_steps(job.output);
   }
 }
 

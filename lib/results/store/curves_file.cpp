@@ -15,14 +15,19 @@ namespace langer {
 
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
+  std::string rest = unit;
   std::string word;
-  for (char c : unit.starts_with("1/") ? unit.substr(1) : unit) {
+  if (rest.starts_with("1/")) {
+    word = "per_";
+    rest = rest.substr(2);
+  }
+  for (const char c : rest) {
     if (c == '/') {
-      word += (word.empty() ? "per_" : "_per_");
+      word += "_per_";
     } else if (c == ' ') {
-      word += "_";
+      word += '_';
     } else {
-      word += std::string(1, c);
+      word += c;
     }
   }
   return name + "_" + word;
@@ -34,23 +39,17 @@ std::string csv_cell(const std::string& text) {
   if (!blank && text.find_first_of(",;\"\n\r\t") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '"') {
-      quoted += std::string("\"\"");
-    } else {
-      quoted += std::string(1, c);
-    }
+    if (c == '"') quoted += '"';  // a quote within quotes is doubled
+    quoted += c;
   }
   return quoted + "\"";
 }
 
+// The table as CSV, one row per state.
 std::string csv(const std::vector<Column>& columns) {
   std::string text;
   std::size_t rows = 0;
-  if (columns.empty()) {
-    rows = 0;
-  } else {
-    rows = columns[0].values.size();
-  }
+  if (!columns.empty()) rows = columns[0].values.size();
   for (const Column& c : columns) {
     if (c.values.size() != rows)
       throw Failure(Exit::bug, Error{{},
@@ -61,12 +60,15 @@ std::string csv(const std::vector<Column>& columns) {
     append(text, ",", csv_cell(csv_name(c.name, c.unit)));
   }
   text += "\n";
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t c = 0; c < columns.size();
-         ++c)  // shortest digits that read back as the same number
-      text += fmt::format(
-          "{}{}", std::isnan(columns[c].values[i]) ? "" : fmt::format("{}", columns[c].values[i]),
-          c + 1 < columns.size() ? "," : "\n");
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      // {} writes the shortest digits that read back as the same number.
+      if (c > 0) text += ",";
+      const double value = columns[c].values[i];
+      if (!std::isnan(value)) text += fmt::format("{}", value);
+    }
+    text += "\n";
+  }
   return text;
 }
 
@@ -79,6 +81,7 @@ std::vector<Column> columns_of(const SurfaceMap& map) {
 
 namespace {
 
+// The numbers of an array of rows, one after another.
 template <class To, class From, std::size_t n>
 std::vector<To> flat(const std::vector<std::array<From, n>>& rows) {
   std::vector<To> values;
@@ -86,6 +89,7 @@ std::vector<To> flat(const std::vector<std::array<From, n>>& rows) {
   return values;
 }
 
+// The inverse of flat(): rows of n numbers.
 template <class To, std::size_t n, class From>
 std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
   std::vector<std::array<To, n>> rows(values.size() / n);
@@ -93,6 +97,7 @@ std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
   return rows;
 }
 
+// Group /maps/<name>: places, values, facets, fibres and named points.
 void write_map(const h5::Group& group, const SurfaceMap& map) {
   const std::size_t n = map.places.size();
   const std::size_t m = map.facets.size();
@@ -112,6 +117,7 @@ void write_map(const h5::Group& group, const SurfaceMap& map) {
   group.annotate("points", "names", names);
 }
 
+// Reads a map and refuses facets and fibres that do not fit its nodes.
 SurfaceMap read_map(const h5::Group& group, const std::string& name) {
   SurfaceMap map{name,
                  group.annotation("values", "label"),
@@ -174,6 +180,7 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
   file.commit();
 }
 
+// Reads the whole file. Units must be known and columns must have equal length.
 CurvesFile read_curves(const std::string& path) {
   const h5::File file = h5::File::open(path);
   CurvesFile result;

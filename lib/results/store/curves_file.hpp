@@ -1,6 +1,6 @@
-// curves.h5: named curves, a table of columns, maps of the surface and a summary; table and maps
-// also as CSV beside it. CSV columns are called name_unit (name alone for pure numbers); what is
-// not a number is an empty cell. docs/schema.md
+// curves.h5: named curves, a table of columns, maps of the surface and a summary. The table and the
+// maps are also written as CSV into the same folder. CSV columns are called name_unit, or name
+// alone for pure numbers; a value that is not a number is an empty cell. docs/schema.md
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 
 namespace langer {
 
+// A curve with the labels and units of its axes.
 struct NamedCurve {
   std::string name;
   std::string x_label, x_unit;
@@ -20,6 +21,7 @@ struct NamedCurve {
   std::vector<double> x, y;
 };
 
+// A column of the table.
 struct Column {
   std::string name, unit;
   std::vector<double> values;
@@ -30,14 +32,15 @@ using PlanePoint = std::array<double, 2>;  // x, z
 // A field on a part of the surface in one state, seen from above: x to the right, z downwards.
 struct SurfaceMap {
   std::string name, label, unit;
-  double t = 0;                            // of the state
+  double t = 0;                            // path parameter of the state
   std::vector<PlanePoint> places;          // x, z of the nodes, undeformed [mm]
   std::vector<double> values;              // at the nodes
-  std::vector<std::array<int, 4>> facets;  // corners, in order round
+  std::vector<std::array<int, 4>> facets;  // corners in order
   std::vector<PlanePoint> fibres;  // x, z of the first family's direction in each facet's cell
   std::map<std::string, PlanePoint> points;  // named places
 };
 
+// The contents of curves.h5.
 struct Curves {
   std::vector<NamedCurve> curves;
   std::vector<Column> columns;  // of equal length
@@ -45,7 +48,7 @@ struct Curves {
   std::vector<Summary> summary;
 };
 
-// writes `path` and, where there are columns, the CSV of the same name first
+// Writes `path`. If there are columns, the CSV file of the same name is written first.
 void write_curves(const std::string& path, const Curves& curves, const Identity& identity);
 
 struct CurvesFile {
@@ -54,10 +57,11 @@ struct CurvesFile {
 };
 CurvesFile read_curves(const std::string& path);
 
-std::string csv_name(const std::string& name,
-                     const std::string& unit);  // "1/MPa" becomes per_MPa, "N mm" N_mm
-std::string csv_cell(const std::string& text);  // between quotes where it holds a comma, a quote, a
-                                                // semicolon, a line's end or outer blanks
+// The head of a column: "1/MPa" becomes name_per_MPa, "N mm" name_N_mm.
+std::string csv_name(const std::string& name, const std::string& unit);
+// The text of a cell. It is quoted if it has a comma, a quote, a semicolon, an end of line or outer
+// blanks.
+std::string csv_cell(const std::string& text);
 std::string csv(const std::vector<Column>& columns);
 std::vector<Column> columns_of(const SurfaceMap& map);  // x, z, value: one row per node
 

@@ -31,6 +31,7 @@ constexpr std::uint64_t header = magic.size() + sizeof(std::uint64_t);
       Error{{path}, "", fmt::format("cannot be written ({})", std::strerror(errno)), "", hint});
 }
 
+// Reads bytes from a position; false if the file ends before.
 bool read_at(int fd, std::uint64_t at, void* to, std::uint64_t bytes) {
   char* place = static_cast<char*>(to);
   while (bytes > 0) {
@@ -44,12 +45,14 @@ bool read_at(int fd, std::uint64_t at, void* to, std::uint64_t bytes) {
   return true;
 }
 
+// Writes bytes at a position; false with errno if that fails.
 bool write_at(int fd, std::uint64_t at, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30),
                                static_cast<off_t>(at));
     if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n)), at += static_cast<std::uint64_t>(n);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+    at += static_cast<std::uint64_t>(n);
   }
   return true;
 }
@@ -75,12 +78,15 @@ Journal::Journal(const std::string& path) : path_(path) {
         Exit::input,
         Error{{path}, "", "is being written by another run", "", "wait for it, or end it"});
   }
+  if (size_of(fd_) == 0) {
+    clear();
+    return;
+  }
+  // A file with another begin keeps end_ = 0: it has no records.
   std::string begin(magic.size(), '\0');
   std::uint64_t seed = 0;
-  if (size_of(fd_) == 0)
-    clear();
-  else if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic &&
-           read_at(fd_, magic.size(), &seed, sizeof seed)) {
+  if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic &&
+      read_at(fd_, magic.size(), &seed, sizeof seed)) {
     end_ = header;
     chain_ = seed;
   }
@@ -92,6 +98,8 @@ Journal::~Journal() {
   ::close(fd_);
 }
 
+// Reads length, bytes and checksum. A length beyond the end of the file is damage, and nothing is
+// allocated for it.
 std::optional<std::string> Journal::next() {
   std::uint64_t length = 0, sum = 0;
   const std::uint64_t size = size_of(fd_);
@@ -113,6 +121,7 @@ void Journal::put_back() {
 
 bool Journal::at_end() const { return end_ > 0 && end_ == size_of(fd_); }
 
+// Begins the file again with a new random seed, so that records of before do not fit any more.
 void Journal::clear() {
   std::random_device random;
   chain_ = (static_cast<std::uint64_t>(random()) << 32) ^ random();
@@ -124,21 +133,22 @@ void Journal::clear() {
   sync_folder_of(path_);
 }
 
+// The record is written first and becomes valid with its checksum.
 void Journal::append(std::string_view record) {
   if (end_ == 0) clear();
   const std::uint64_t length = record.size();
   const std::uint64_t sum = checksum(record, chain_);
   const std::uint64_t at = end_ + sizeof length;
   const std::uint64_t behind = at + length + sizeof sum;
-  // what was damaged goes first, so that nothing of it stands behind the new end
+  // Damaged records are cut off first, so that nothing of them follows the new end.
   if (size_of(fd_) > end_ && ::ftruncate(fd_, static_cast<off_t>(end_)) != 0)
     cannot_write(path_, "");
   if (!write_at(fd_, end_, bytes_of(length)) || !write_at(fd_, at, record) ||
       !write_at(fd_, at + length, bytes_of(sum))) {
+    // The file is cut back to its end before. If that fails too, the file stays readable: half a
+    // record does not fit its checksum.
     const int reason = errno;
-    const bool cut = ::ftruncate(fd_, static_cast<off_t>(end_)) ==
-                     0;  // not needed to be right: half a record does not fit its checksum
-    (void)cut;
+    [[maybe_unused]] const int cut = ::ftruncate(fd_, static_cast<off_t>(end_));
     errno = reason;
     cannot_write(path_, "is the disk full?");
   }
@@ -147,6 +157,7 @@ void Journal::append(std::string_view record) {
   if (std::chrono::steady_clock::now() - synced_ > std::chrono::seconds(1)) sync();
 }
 
+// Some file systems cannot sync (EINVAL, EROFS). There the journal works without it.
 void Journal::sync() {
   if (::fdatasync(fd_) != 0 && errno != EINVAL && errno != EROFS)
     cannot_write(path_, "is the disk full?");

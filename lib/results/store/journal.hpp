@@ -1,9 +1,9 @@
-// Records in a file to which one only ever adds: what a run has done so far, told whole from
-// damaged after a crash or a power cut.
+// A file of records to which a run only appends. After a crash or a power failure the complete
+// records can be distinguished from damaged ones.
 //   "langer journal 1\n"  seed  |  length  bytes  checksum  |  length  bytes  checksum  |  ...
-// Each checksum goes on from that of the record before, the first from a seed of the file's own, so
-// that neither a page of zeros nor old blocks of the disk pass for a record. The first record that
-// does not fit its checksum, and all behind it, never happened.
+// Each checksum continues that of the record before, and the first begins with a random seed of the
+// file. So neither a page of zeros nor old blocks of the disk pass for a record. The first record
+// that does not fit its checksum, and everything after it, is ignored.
 #pragma once
 
 #include <chrono>
@@ -14,32 +14,34 @@
 
 namespace langer {
 
+// An open journal, locked for other processes.
 class Journal {
  public:
-  // Opens the file or makes an empty one; throws Failure(input): it cannot be written, or another
-  // process holds it.
+  // Opens the file or creates an empty one. Throws Failure(input) if it cannot be written or if
+  // another process has locked it.
   explicit Journal(const std::string& path);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  std::optional<std::string> next();  // record after record; nothing at the end of what is whole
-  void put_back();      // the record just read is not wanted, nor what stands behind it
-  bool at_end() const;  // nothing stands behind the last record read: none was damaged
-  void clear();         // forgets all records
-  // Behind the last record read or appended; what stood there is cut off. Throws Failure(input)
-  // where the disk is full: the file then is as it was. Reaches the disk itself at once, or within
-  // a second of steps that follow each other more quickly than that.
+  std::optional<std::string> next();  // the next record; nothing after the last complete one
+  void put_back();                    // the record just read, and all after it, will be discarded
+  bool at_end() const;                // nothing follows the last record read: none was damaged
+  void clear();                       // removes all records
+  // Appends after the last record read or appended; anything after that is cut off. Throws
+  // Failure(input) if the disk is full, and leaves the file unchanged. The record is on the disk at
+  // once, or within a second if records follow each other more quickly.
   void append(std::string_view record);
-  void remove();  // the work is done
+  void remove();  // deletes the file: the task is done
   const std::string& path() const { return path_; }
 
  private:
   void sync();
   std::string path_;
   int fd_ = -1;
-  std::uint64_t end_ = 0;    // of the records read or appended
-  std::uint64_t chain_ = 0;  // checksum of the last of them
+  std::uint64_t end_ = 0;    // position after the last record read or appended
+  std::uint64_t chain_ = 0;  // its checksum
+  // The same one record earlier, for put_back().
   std::uint64_t end_before_ = 0, chain_before_ = 0;
   std::chrono::steady_clock::time_point synced_;
 };

@@ -1,9 +1,12 @@
-// A struct with a listing (base/fields.hpp) as nested groups of a file, the way its YAML nests:
+// Writes and reads a struct with a listing (base/fields.hpp) as nested groups of a file, in the
+// same way as its YAML nests:
 //   numbers and switches   scalar datasets with `unit` (bool as 0 or 1)
 //   words and enums        strings
-//   struct, chosen variant group;  lists: groups 0, 1, ...;  an optional that is empty is left out
-// Reading refuses what is missing, not finite, out of the listing's range, or a word the listing
-// does not know.
+//   structs                groups; of a variant the group of the chosen alternative
+//   lists                  groups 0, 1, ...
+//   empty optionals        left out
+// Reading refuses a value that is missing, not finite or out of the range of its listing, and a
+// word that the listing does not know.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +24,16 @@ void write_listing(const h5::Group& group, const T& object);
 template <Listed T>
 void read_listing(const h5::Group& group, T& object);
 
+// The group of a variant's alternatives. Their keys may be among the keys of the struct itself.
+template <class V>
+h5::Group choice_group(const Member& m, const h5::Group& group, const std::string& name,
+                       bool make) {
+  if (is_among_keys<V>(m)) return group;
+  if (make) return group.make_group(name);
+  return group.group(name);
+}
+
+// Writes one member of a struct, by its type.
 template <class V>
 void write_member(const h5::Group& group, const Member& m, const std::string& name,
                   const V& value) {
@@ -33,7 +46,7 @@ void write_member(const h5::Group& group, const Member& m, const std::string& na
   else if constexpr (is_optional<V>) {
     if (value) write_member(group, m, name, *value);
   } else if constexpr (is_choice<V>) {
-    const h5::Group choice = is_among_keys<V>(m) ? group : group.make_group(name);
+    const h5::Group choice = choice_group<V>(m, group, name, true);
     std::visit(
         [&](const auto& a) {
           write_listing(choice.make_group(std::remove_cvref_t<decltype(a)>::key), a);
@@ -47,15 +60,20 @@ void write_member(const h5::Group& group, const Member& m, const std::string& na
     write_listing(group.make_group(name), value);
 }
 
+// Whether a number is finite and in a range, whose ends belong to it or not.
+inline bool is_in(const Range& r, double x) {
+  if (!std::isfinite(x) || x < r.low || x > r.high) return false;
+  if (x == r.low && !r.low_included) return false;
+  return x != r.high || r.high_included;
+}
+
+// Reads one member of a struct, by its type.
 template <class V>
 void read_member(const h5::Group& group, const Member& m, const std::string& name, V& value) {
   if constexpr (std::is_arithmetic_v<V>) {
     const double x = group.read_scalar(name);
-    require_unit(group, name, m.unit);
-    const Range& r = m.range;
-    if (!std::isfinite(x) || x < r.low || x > r.high || (x == r.low && !r.low_included) ||
-        (x == r.high && !r.high_included))
-      group.refuse(name, std::to_string(x), type_words<V>(m));
+    need_unit(group, name, m.unit);
+    if (!is_in(m.range, x)) group.refuse(name, std::to_string(x), type_words<V>(m));
     value = static_cast<V>(x);
   } else if constexpr (std::is_same_v<V, std::string>)
     value = group.read_text(name);
@@ -69,7 +87,7 @@ void read_member(const h5::Group& group, const Member& m, const std::string& nam
     value.reset();
     if (group.has(name)) read_member(group, m, name, value.emplace());
   } else if constexpr (is_choice<V>) {
-    const h5::Group choice = is_among_keys<V>(m) ? group : group.group(name);
+    const h5::Group choice = choice_group<V>(m, group, name, false);
     bool found = false;
     for_each_alternative<V>([&](auto alternative) {
       if (found || !choice.has(decltype(alternative)::key)) return;

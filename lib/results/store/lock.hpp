@@ -1,16 +1,17 @@
-// One run at a time writes an output: <output>.lock, held while the run lives, names it to the next
-// one. The kernel lets go of the lock when the process ends, however it ends; a lock file left by
-// kill -9 is in nobody's way.
+// Only one run at a time writes an output. It holds a lock on <output>.lock as long as it lives;
+// the file names the run to others. The kernel releases the lock when the process ends, however it
+// ends, so a lock file left by kill -9 does not block anything.
 #pragma once
 
 #include <string>
 
 namespace langer {
 
+// Holds the lock from construction to destruction.
 class OutputLock {
  public:
-  // throws Failure(input): another run writes this output (pid, host, since when, command), or the
-  // folder cannot be written
+  // Throws Failure(input) if another run writes this output (with its pid, host, time and
+  // command), or if the folder cannot be written.
   OutputLock(const std::string& output, const std::string& command);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/base/text.hpp"
 #include "results/store/listing.hpp"
 #include "results/store/matrices.hpp"
 #include "results/store/provenance.hpp"
@@ -13,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// Datasets are stored row by row, Eigen's matrices column by column.
 MatX read_matrix(const h5::Group& group, const std::string& name, const h5::Shape& shape) {
   const auto array = group.read<double>(name, shape);
   using Rows = Eigen::Matrix<double, -1, -1, Eigen::RowMajor>;
@@ -20,6 +22,7 @@ MatX read_matrix(const h5::Group& group, const std::string& name, const h5::Shap
                                 static_cast<Eigen::Index>(array.shape[1]));
 }
 
+// The bound of the stiffness at rest that the fit raised, and the error before and after.
 void write_at_rest(const h5::Group& group, const StiffnessAtRest& s) {
   for (const auto& [name, value] : {std::pair{"fitted", s.fitted},
                                     {"allowed", s.allowed},
@@ -37,6 +40,7 @@ void check_units(const h5::Group& group,
   for (const auto& [name, unit] : units) require_unit(group, name, unit);
 }
 
+// The inverse of write_at_rest().
 StiffnessAtRest read_at_rest(const h5::Group& group) {
   check_units(group, {{"fitted", "MPa"},
                       {"allowed", "MPa"},
@@ -53,33 +57,8 @@ StiffnessAtRest read_at_rest(const h5::Group& group) {
           value("error_before"), value("error_after")};
 }
 
-void write_noise(const h5::Group& group, const NoiseRecord& noise) {
-  group.attribute("model", noise.model);
-  group.write_scalar("correlation", noise.correlation, "-");
-  group.write_scalar("share", noise.share, "-");
-  group.write_scalar("largest_correlation", noise.limit, "-");
-  group.write_scalar("minus_two_log_likelihood", noise.minus_two_log_likelihood, "-");
-  for (const auto& [kind, aicc] : noise.aicc) group.write_scalar("aicc_" + kind, aicc, "-");
-}
-
-NoiseRecord read_noise(const h5::Group& group) {
-  check_units(group, {{"correlation", "-"},
-                      {"share", "-"},
-                      {"largest_correlation", "-"},
-                      {"minus_two_log_likelihood", "-"}});
-  NoiseRecord noise;
-  noise.model = group.text_attribute("model");
-  noise.correlation = group.read_scalar("correlation");
-  noise.share = group.read_scalar("share");
-  noise.limit = group.read_scalar("largest_correlation");
-  noise.minus_two_log_likelihood = group.read_scalar("minus_two_log_likelihood");
-  for (const char* kind : {"white", "proportional", "autoregressive", "both"}) {
-    const std::string name = std::string("aicc_") + kind;
-    if (group.has(name)) noise.aicc.push_back({kind, group.read_scalar(name)});
-  }
-  return noise;
-}
-
+// One group per parameter. The attribute `order` has the order of the rows of the covariance,
+// because HDF5 lists groups by name.
 void write_parameters(const h5::Group& group, const std::vector<FittedParameter>& fitted) {
   const h5::Group parameters = group.make_group("parameters");
   std::string order;
@@ -90,16 +69,18 @@ void write_parameters(const h5::Group& group, const std::vector<FittedParameter>
     one.write_scalar("upper", p.upper, p.unit);
     one.write_scalar("standard_error", p.standard_error, p.unit);
     one.write_scalar("interval_factor", p.factor);
-    if (!std::isnan(p.low))
-      one.write_scalar("interval_low", p.low, p.unit),
-          one.write_scalar("interval_high", p.high, p.unit);
+    if (!std::isnan(p.low)) {
+      one.write_scalar("interval_low", p.low, p.unit);
+      one.write_scalar("interval_high", p.high, p.unit);
+    }
     if (std::isfinite(p.truth)) one.write_scalar("truth", p.truth, p.unit);
     if (!p.key.empty()) one.attribute("key", p.key);
-    order += (order.empty() ? "" : " ") + p.name;
+    append(order, " ", p.name);
   }
   parameters.attribute("order", order);
 }
 
+// One group per test with its points, measured and computed.
 void write_tests(const h5::Group& root, const std::vector<FittedTest>& fitted) {
   const h5::Group tests = root.make_group("tests");
   std::string names;
@@ -118,11 +99,12 @@ void write_tests(const h5::Group& root, const std::vector<FittedTest>& fitted) {
     one.write_scalar("r2", test.r2);
     one.write_scalar("mean_error", test.mean_error_percent, "percent");
     one.write_scalar("max_error", test.max_error_percent, "percent");
-    names += (names.empty() ? "" : " ") + test.name;
+    append(names, " ", test.name);
   }
   tests.attribute("order", names);
 }
 
+// Curves and fields that were measured in scenes; groups are numbered from 1.
 void write_curves_of_scenes(const h5::Group& root, const std::vector<FittedCurve>& fitted) {
   if (fitted.empty()) return;
   const h5::Group scenes = root.make_group("scenes");
@@ -151,16 +133,12 @@ std::vector<FittedCurve> read_curves_of_scenes(const h5::Group& root) {
   const h5::Group scenes = root.group("scenes");
   for (int i = 1; scenes.has(std::to_string(i)); ++i) {
     const h5::Group one = scenes.group(std::to_string(i));
-    FittedCurve curve{one.text_attribute("name"),
-                      one.text_attribute("quantity"),
-                      one.unit("measured"),
-                      one.text_attribute("over"),
-                      one.unit("x"),
-                      0,
-                      {},
-                      {},
-                      {},
-                      {}};
+    FittedCurve curve;
+    curve.name = one.text_attribute("name");
+    curve.quantity = one.text_attribute("quantity");
+    curve.unit = one.unit("measured");
+    curve.x_name = one.text_attribute("over");
+    curve.x_unit = one.unit("x");
     curve.standard_deviation = one.read_scalar("standard_deviation");
     curve.x = one.read_finite("x", {h5::any});
     curve.measured = one.read_finite("measured", {curve.x.size()});
@@ -170,30 +148,32 @@ std::vector<FittedCurve> read_curves_of_scenes(const h5::Group& root) {
       for (std::size_t k = 0; k < all.size(); k += 3)
         curve.places.push_back({all[k], all[k + 1], all[k + 2]});
     }
-    curve.r2 = one.read_scalar("r2"),
+    curve.r2 = one.read_scalar("r2");
     curve.discretisation_percent = one.read_scalar("discretisation_error");
-    curve.mean_error_percent = one.read_scalar("mean_error"),
+    curve.mean_error_percent = one.read_scalar("mean_error");
     curve.max_error_percent = one.read_scalar("max_error");
     fitted.push_back(std::move(curve));
   }
   return fitted;
 }
 
+// The root mean square of the difference between a measured curve and the model.
+double rms_difference(const FittedCurve& c) {
+  double square = 0;
+  for (std::size_t i = 0; i < c.model.size(); ++i)
+    square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
+  return std::sqrt(square / static_cast<double>(std::max<std::size_t>(c.model.size(), 1)));
+}
+
+// The numbers of a fit that `gather` collects.
 std::vector<Summary> summary_of(const FitRecord& fit) {
   std::vector<Summary> summary;
   for (const FittedParameter& p : fit.parameters) summary.push_back({p.name, p.value, p.unit});
   if (!fit.curves.empty())
     for (const FittedParameter& p : fit.parameters)
       summary.push_back({p.name + "_standard_error", p.standard_error, p.unit});
-  for (const FittedCurve& c : fit.curves) {  // root mean square of what is missed
-    double square = 0;
-    for (std::size_t i = 0; i < c.model.size(); ++i)
-      square += (c.model[i] - c.measured[i]) * (c.model[i] - c.measured[i]);
-    summary.push_back(
-        {c.name + "_rms",
-         std::sqrt(square / static_cast<double>(std::max<std::size_t>(c.model.size(), 1))),
-         c.unit});
-  }
+  for (const FittedCurve& c : fit.curves)
+    summary.push_back({c.name + "_rms", rms_difference(c), c.unit});
   summary.push_back({"mean_error", fit.mean_error_percent, "percent"});
   summary.push_back({"max_error", fit.max_error_percent, "percent"});
   summary.push_back({"r2", fit.r2, "-"});
@@ -210,6 +190,7 @@ std::vector<Summary> summary_of(const FitRecord& fit) {
   return summary;
 }
 
+// Groups /fit, /curve, /tests and /scenes, the summary and the study.
 void write_fit(const h5::Group& root, const FitRecord& fit) {
   const h5::Group group = root.make_group("fit");
   write_parameters(group, fit.parameters);
@@ -234,8 +215,7 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   if (std::isfinite(fit.left_out_error_percent))
     group.write_scalar("left_out_error", fit.left_out_error_percent, "percent");
   std::string ties;
-  for (const Tie& tie : fit.ties)
-    ties += (ties.empty() ? "" : "; ") + tie.key + " = " + tie_text(tie);
+  for (const Tie& tie : fit.ties) append(ties, "; ", tie.key + " = " + tie_text(tie));
   if (!ties.empty()) group.attribute("ties", ties);
   if (fit.at_rest) write_at_rest(group.make_group("at_rest"), *fit.at_rest);
 
@@ -249,37 +229,32 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   write_study(root, fit.study);
 }
 
-// "fibres[1].alpha = -fibres[0].alpha; ..."
+// One tie of the text below; nothing if it cannot be read.
+std::optional<Tie> read_tie(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::size_t first = text.find_first_not_of(' ');
+  if (equals == std::string::npos || equals == 0 || first >= equals) return std::nullopt;
+  const std::size_t last = text.find_last_not_of(' ', equals - 1);
+  return parse_tie(text.substr(first, last + 1 - first), text.substr(equals + 1));
+}
+
+// The ties of an attribute: "fibres[1].alpha = -fibres[0].alpha; ...".
 std::vector<Tie> read_ties(const std::string& text) {
   std::vector<Tie> ties;
   std::istringstream all(text);
   for (std::string one; std::getline(all, one, ';');) {
-    const std::size_t equals = one.find('='), first = one.find_first_not_of(' ');
-    const auto tie =
-        equals == std::string::npos || equals == 0 || first >= equals
-            ? std::nullopt
-            : parse_tie(one.substr(first, one.find_last_not_of(' ', equals - 1) + 1 - first),
-                        one.substr(equals + 1));
-    if (tie) ties.push_back(*tie);
+    if (const auto tie = read_tie(one)) ties.push_back(*tie);
   }
   return ties;
 }
 
+// The inverse of write_tests() for one test. Measured and computed columns must have the length
+// of the stretches.
 FittedTest read_test(const h5::Group& one, const std::string& name) {
-  FittedTest test{name,
-                  one.text_attribute("kind"),
-                  one.text_attribute("measure"),
-                  0,
-                  1,
-                  {},
-                  {},
-                  {},
-                  {},
-                  {},
-                  {},
-                  0,
-                  0,
-                  0};
+  FittedTest test;
+  test.name = name;
+  test.kind = one.text_attribute("kind");
+  test.measure = one.text_attribute("measure");
   check_units(one, {{"fibre_angle", "deg"},
                     {"first", "-"},
                     {"second", "-"},
@@ -289,21 +264,46 @@ FittedTest read_test(const h5::Group& one, const std::string& name) {
                     {"model_z", "MPa"},
                     {"mean_error", "percent"},
                     {"max_error", "percent"}});
-  test.fibre_angle_deg = one.read_scalar("fibre_angle"), test.weight = one.read_scalar("weight");
-  test.first = one.read_finite("first", {h5::any}),
+  test.fibre_angle_deg = one.read_scalar("fibre_angle");
+  test.weight = one.read_scalar("weight");
+  test.first = one.read_finite("first", {h5::any});
   test.second = one.read_finite("second", {h5::any});
-  test.stress_x = one.read_finite("stress_x", {test.first.size()}),
+  test.stress_x = one.read_finite("stress_x", {test.first.size()});
   test.stress_z = one.read_finite("stress_z", {h5::any});
   test.model_x = one.read_finite("model_x", {test.first.size()});
   test.model_z = one.read_finite("model_z", {test.stress_z.size()});
-  test.r2 = one.read_scalar("r2"), test.mean_error_percent = one.read_scalar("mean_error");
+  test.r2 = one.read_scalar("r2");
+  test.mean_error_percent = one.read_scalar("mean_error");
   test.max_error_percent = one.read_scalar("max_error");
   return test;
 }
 
+// One fitted parameter. Its bounds and its error must have the unit of its value.
+FittedParameter read_parameter(const h5::Group& one, const std::string& name) {
+  need_known_unit(one, "value");
+  for (const char* other : {"lower", "upper", "standard_error"})
+    need_unit(one, other, one.unit("value"));
+  FittedParameter p{name,
+                    one.unit("value"),
+                    one.read_scalar("value"),
+                    one.read_scalar("lower"),
+                    one.read_scalar("upper"),
+                    one.read_scalar("standard_error")};
+  if (one.has("truth")) p.truth = one.read_scalar("truth");
+  if (one.has("interval_factor")) p.factor = one.read_scalar("interval_factor");
+  if (one.has("interval_low")) {
+    p.low = one.read_scalar("interval_low");
+    p.high = one.read_scalar("interval_high");
+  }
+  if (one.has_attribute("key")) p.key = one.text_attribute("key");
+  return p;
+}
+
+// The record of a fit. Parts that older files lack keep their defaults.
 FitRecord read_fit(const h5::Group& root) {
-  const h5::Group group = root.group("fit"), parameters = group.group("parameters"),
-                  curve = root.group("curve");
+  const h5::Group group = root.group("fit");
+  const h5::Group parameters = group.group("parameters");
+  const h5::Group curve = root.group("curve");
   check_units(group, {{"cost", "MPa^2"},
                       {"mean_error", "percent"},
                       {"max_error", "percent"},
@@ -311,22 +311,8 @@ FitRecord read_fit(const h5::Group& root) {
   check_units(curve, {{"strain", "-"}, {"stress", "MPa"}, {"model", "MPa"}});
   FitRecord fit;
   std::istringstream order(parameters.text_attribute("order"));
-  for (std::string name; order >> name;) {
-    const h5::Group one = parameters.group(name);
-    require_known_unit(one, "value");
-    for (const char* other : {"lower", "upper", "standard_error"})
-      require_unit(one, other, one.unit("value"));
-    fit.parameters.push_back({name, one.unit("value"), one.read_scalar("value"),
-                              one.read_scalar("lower"), one.read_scalar("upper"),
-                              one.read_scalar("standard_error")});
-    if (one.has("truth")) fit.parameters.back().truth = one.read_scalar("truth");
-    if (one.has("interval_factor"))
-      fit.parameters.back().factor = one.read_scalar("interval_factor");
-    if (one.has("interval_low"))
-      fit.parameters.back().low = one.read_scalar("interval_low"),
-      fit.parameters.back().high = one.read_scalar("interval_high");
-    if (one.has_attribute("key")) fit.parameters.back().key = one.text_attribute("key");
-  }
+  for (std::string name; order >> name;)
+    fit.parameters.push_back(read_parameter(parameters.group(name), name));
   const std::size_t p = fit.parameters.size();
   fit.covariance = read_matrix(group, "covariance", {p, p});
   fit.starts = read_matrix(group, "starts", {h5::any, h5::any});
@@ -335,7 +321,8 @@ FitRecord read_fit(const h5::Group& root) {
   fit.mean_error_percent = group.read_scalar("mean_error");
   fit.max_error_percent = group.read_scalar("max_error");
   const auto range = group.read_finite("strain_range", {2});
-  fit.strain_min = range[0], fit.strain_max = range[1];
+  fit.strain_min = range[0];
+  fit.strain_max = range[1];
   fit.strain = curve.read_finite("strain", {h5::any});
   fit.stress = curve.read_finite("stress", {fit.strain.size()});
   fit.model = curve.read_finite("model", {fit.strain.size()});
@@ -343,7 +330,8 @@ FitRecord read_fit(const h5::Group& root) {
   if (root.has("identifiability") && root.group("identifiability").has("bootstrap"))
     fit.sets =
         read_matrix(root.group("identifiability").group("bootstrap"), "samples", {h5::any, p});
-  fit.r2 = group.read_scalar("r2"), fit.aicc = group.read_scalar("aicc"),
+  fit.r2 = group.read_scalar("r2");
+  fit.aicc = group.read_scalar("aicc");
   fit.bic = group.read_scalar("bic");
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));

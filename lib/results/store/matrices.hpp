@@ -1,4 +1,4 @@
-// Matrices and vectors of Eigen as datasets: rows first, each with its unit.
+// Matrices and vectors of Eigen as datasets, row by row, each with its unit.
 #pragma once
 
 #include <Eigen/Dense>

@@ -4,6 +4,8 @@
 
 namespace langer {
 
+// The identity, the grid, and everything that the grid of VTK cannot store: sections, hanging
+// nodes and sets.
 void write_mesh(const std::string& path, const Mesh& mesh, const Identity& identity,
                 const std::vector<Summary>& summary) {
   h5::File file = h5::File::create(path);

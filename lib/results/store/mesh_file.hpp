@@ -16,7 +16,7 @@ struct MeshFile {
   Mesh mesh;
   std::string content_id;
 };
-MeshFile read_mesh(
-    const std::string& path);  // throws Failure(input) with the path and what is wrong
+// Throws Failure(input) with the path and the fault.
+MeshFile read_mesh(const std::string& path);
 
 }  // namespace langer

@@ -17,6 +17,7 @@
 
 namespace langer {
 
+// Fowler, Noll and Vo's hash: not cryptographic, but short and the same on all machines.
 std::string fnv1a(const std::string& text) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (unsigned char c : text) h = (h ^ c) * 0x100000001b3u;
@@ -25,12 +26,14 @@ std::string fnv1a(const std::string& text) {
 
 namespace {
 
+// "port=id port=id ...", as the attribute `inputs` has it.
 std::string joined(const std::map<std::string, std::string>& inputs) {
   std::string text;
   for (const auto& [port, id] : inputs) append(text, " ", port + "=" + id);
   return text;
 }
 
+// The inverse of joined().
 std::map<std::string, std::string> separated(const std::string& text) {
   std::map<std::string, std::string> inputs;
   std::istringstream in(text);
@@ -46,6 +49,7 @@ void write(const h5::Group& group, const Cost& cost) {
   group.write_scalar("memory", cost.memory, "MB");
 }
 
+// Nothing in files without this group.
 std::optional<Cost> read_cost(const h5::Group& provenance, const char* name) {
   if (!provenance.has(name)) return {};
   const h5::Group cost = provenance.group(name);
@@ -75,6 +79,7 @@ std::string host_name() {
   return "";
 }
 
+// Two outputs have the same id if stage, schema, config and inputs are the same.
 std::string content_id(const Identity& identity, int schema_version) {
   return fnv1a(fmt::format("{}\n{}\n{}\n{}", identity.stage, schema_version, identity.config_hash,
                            joined(identity.inputs)));
@@ -112,6 +117,8 @@ void write_cost(const h5::Group& root, const Cost& cost, bool continued) {
 }
 
 namespace {
+
+// Reads the origin of a file. Files in other units are refused: no reader converts them.
 Origin origin(const h5::Group& root) {
   if (!root.has_attribute("schema") || !root.has_attribute("schema_version"))
     root.refuse("", "no schema attribute: not a file of langer");
@@ -129,26 +136,27 @@ Origin origin(const h5::Group& root) {
     if (provenance.has("config")) identity.config = provenance.read_text("config");
     if (provenance.has("command")) identity.command = provenance.read_text("command");
     origin.cost = read_cost(provenance, "cost");
-    const bool whole = origin.cost && !provenance.group("cost").has_attribute("continued");
-    if (origin.schema == solution_schema.name)
-      identity.solution_cost = whole ? origin.cost : std::nullopt;
-    else
+    if (origin.schema != solution_schema.name) {
       identity.solution_cost = read_cost(provenance, "solution_cost");
+    } else if (origin.cost && !provenance.group("cost").has_attribute("continued")) {
+      identity.solution_cost = origin.cost;
+    }
   }
   origin.content_id = content_id(identity, origin.version);
   return origin;
 }
 }  // namespace
 
+// The message names the schema that was found and the one that is needed.
 Identity read_identity(const h5::Group& root, const Schema& schema) {
   const Origin found = origin(root);
-  if (found.schema != schema.name || found.version < schema.version ||
-      found.version > schema.newest)
-    root.refuse(
-        "", fmt::format("schema {}/{}", found.schema, found.version),
-        fmt::format("{}/{}", schema.name, schema.version),
-        found.schema == schema.name ? "written by another version of langer: make it again" : "");
-  return found.identity;
+  const bool same_schema = found.schema == schema.name;
+  if (same_schema && found.version >= schema.version && found.version <= schema.newest)
+    return found.identity;
+  std::string hint;
+  if (same_schema) hint = "written by another version of langer: make it again";
+  root.refuse("", fmt::format("schema {}/{}", found.schema, found.version),
+              fmt::format("{}/{}", schema.name, schema.version), hint);
 }
 
 int schema_version(const h5::Group& root) {

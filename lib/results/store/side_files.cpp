@@ -38,7 +38,8 @@ bool is_made_by(const fs::path& file, const std::string& stage) {
   }
 }
 
-// A run that has begun has no output yet, but it holds a lock that says which program it is.
+// Whether a run of the stage holds the lock. A run that has begun has no output yet, but its lock
+// file names its program.
 bool is_running(const fs::path& lock, const std::string& stage) {
   const int fd = ::open(lock.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return false;
@@ -50,8 +51,8 @@ bool is_running(const fs::path& lock, const std::string& stage) {
   return held && line.find(": langer-" + stage + " ") != std::string::npos;
 }
 
-// Another output of the same stage in the same folder whose side files have the plain names; empty
-// where there is none. `finished` counts outputs that are there, not only those being made.
+// Another output of the same stage in the same folder whose side files have the plain names;
+// empty if there is none. `finished`: outputs that exist count too, not only those being made.
 std::string plain_owner(const fs::path& output, const std::string& stage, bool finished) {
   std::error_code none;
   std::vector<fs::path> entries;
@@ -78,6 +79,8 @@ std::string plain_owner(const fs::path& output, const std::string& stage, bool f
 
 }  // namespace
 
+// An output that already has a folder of its own keeps it. A new output gets one if another
+// output has the plain names.
 SideFolder side_folder(const std::string& output, const std::string& stage,
                        const std::vector<std::string>& names) {
   const fs::path plain = fs::path(output).parent_path();

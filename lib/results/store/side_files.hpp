@@ -11,14 +11,15 @@
 
 namespace langer {
 
+// The chosen folder, and the reason for it.
 struct SideFolder {
   std::string path;   // "" is the current folder
   std::string owner;  // the output that has the plain names; empty: this one has them
 };
 
-// The folder for the side files of `output`, made by `stage`; `names` are those that its config
-// asks for. Throws Failure(input) where the folder cannot be made, or where a name belongs to a
-// link, a device or a file that this run reads: before the work begins, not after it.
+// The folder for the side files of `output`, made by `stage`. `names` are the side files that its
+// config asks for. Throws Failure(input) before the computation begins, not after it: if the
+// folder cannot be made, or if a name belongs to a link, a device or a file that this run reads.
 SideFolder side_folder(const std::string& output, const std::string& stage,
                        const std::vector<std::string>& names);
 

@@ -7,11 +7,11 @@
 namespace langer {
 
 namespace {
+// Writes the fields of points or elements and marks the active ones.
 void write_fields(const h5::Group& group, std::size_t rows, const std::vector<Field>& fields) {
   for (const Field& f : fields) {
-    const h5::Shape shape = f.components == 1
-                                ? h5::Shape{rows}
-                                : h5::Shape{rows, static_cast<std::size_t>(f.components)};
+    h5::Shape shape{rows};
+    if (f.components > 1) shape.push_back(static_cast<std::size_t>(f.components));
     group.write<double>(f.name, shape, f.values, f.unit);
   }
   const ActiveFields active = active_fields(fields);

@@ -9,6 +9,7 @@
 
 namespace langer {
 
+// The open file and the parts that all steps share.
 struct SolutionReader::State {
   h5::File file;
   SolutionHeader header;
@@ -18,13 +19,15 @@ struct SolutionReader::State {
 
 namespace {
 
-double one(const h5::Group& group, const std::string& name, std::size_t i) {
+// Row i of a dataset of numbers.
+double number_at(const h5::Group& group, const std::string& name, std::size_t i) {
   const double value = group.read_rows<double>(name, i, 1, {}).values[0];
   if (!std::isfinite(value))
     group.refuse(name, fmt::format("{} at step {}", value, i), "a finite number");
   return value;
 }
 
+// Rows of a dataset, all of whose numbers must be finite.
 std::vector<double> finite_rows(const h5::Group& group, const std::string& name, std::size_t first,
                                 std::size_t count, const h5::Shape& row) {
   auto values = group.read_rows<double>(name, first, count, row).values;
@@ -34,7 +37,8 @@ std::vector<double> finite_rows(const h5::Group& group, const std::string& name,
   return values;
 }
 
-// those of a field; others follow from the laws' angles and the cells' frames
+// The directions of the fibres. The file has them if a field of the config gave them; otherwise
+// they follow from the angles of the materials and the frames of the elements.
 Directions read_directions(const h5::Group& cells, const SolutionHeader& header) {
   const std::size_t n = static_cast<std::size_t>(header.mesh.n_cells());
   const std::vector<std::vector<double>> angles = fibre_angles(header.laws());
@@ -52,8 +56,9 @@ Directions read_directions(const h5::Group& cells, const SolutionHeader& header)
   }
   Directions directions(true);
   for (std::size_t e = 0; e < n; ++e) {
-    const std::size_t families =
-        angles[angles.size() > 1 ? static_cast<std::size_t>(header.mesh.body[e]) : 0].size();
+    std::size_t body = 0;
+    if (angles.size() > 1) body = static_cast<std::size_t>(header.mesh.body[e]);
+    const std::size_t families = angles[body].size();
     if (fibres[e].size() != families)
       cells.refuse("fibre_1", fmt::format("{} directions in cell {}", fibres[e].size(), e),
                    fmt::format("{}, one for each fibre family of its material", families));
@@ -62,29 +67,53 @@ Directions read_directions(const h5::Group& cells, const SolutionHeader& header)
   return directions;
 }
 
-void check_units(const h5::Group& root) {
-  const auto units_of = [](const h5::Group& group, auto&& unit) {
-    for (const std::string& name : group.datasets()) require_unit(group, name, unit(name));
-  };
-  const auto of_list = [](const std::string& name) {
-    return solution::unit_of(name);
-  };
-  units_of(root.group("history"), of_list);
-  units_of(root.group("VTKHDF").group("CellData"), of_list);
-  units_of(root.group("VTKHDF").group("PointData"), [](const std::string& name) {
-    return name == "u" ? "mm" : name == "reaction" ? "N" : "-";
-  });
+std::string unit_of_history_or_field(const std::string& name) { return solution::unit_of(name); }
+
+std::string unit_of_nodal_field(const std::string& name) {
+  if (name == "u") return "mm";
+  if (name == "reaction") return "N";
+  return "-";
+}
+
+std::string unit_of_contact_array(const std::string& name) {
+  if (name == "r" || name == "adhesive") return "N";
+  if (name == "gap" || name == "bonded_at") return "mm";
+  return "-";
+}
+
+// Refuses datasets of a group whose unit is not the expected one.
+void check_units(const h5::Group& group, std::string (*unit)(const std::string& name)) {
+  for (const std::string& name : group.datasets()) need_unit(group, name, unit(name));
+}
+
+void check_all_units(const h5::Group& root) {
+  check_units(root.group("history"), unit_of_history_or_field);
+  check_units(root.group("VTKHDF").group("CellData"), unit_of_history_or_field);
+  check_units(root.group("VTKHDF").group("PointData"), unit_of_nodal_field);
   if (!root.has("contact")) return;
   const h5::Group contacts = root.group("contact");
   for (const std::string& name : contacts.groups())
-    units_of(contacts.group(name), [](const std::string& array) {
-      const bool length = array == "gap" || array == "bonded_at";
-      return array == "r" || array == "adhesive" ? "N" : length ? "mm" : "-";
-    });
+    check_units(contacts.group(name), unit_of_contact_array);
+}
+
+// The number of steps. It must not exceed the rows of the histories.
+std::size_t count_steps(const h5::Group& root) {
+  const h5::Group steps = root.group("VTKHDF").group("Steps");
+  const std::int64_t n = steps.integer_attribute("NSteps");
+  std::int64_t rows = 0;
+  if (n != 0) {
+    const h5::Shape times = root.group("history").shape("t");
+    if (times.empty()) root.group("history").refuse("t", "a scalar", "one time for each step");
+    rows = static_cast<std::int64_t>(times[0]);
+  }
+  if (n < 0 || n > rows)
+    steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
+  return static_cast<std::size_t>(n);
 }
 
 }  // namespace
 
+// Reads everything except the steps, and checks all units before the first step is read.
 SolutionReader::SolutionReader(const std::string& path)
     : state_(new State{h5::File::open(path), {}, {}, 0}) {
   const h5::Group root = state_->file.root();
@@ -112,15 +141,8 @@ SolutionReader::SolutionReader(const std::string& path)
         header.indenter_surfaces[name] = read_triangles(contacts.group(name).group("surface"));
     }
   }
-  check_units(root);
-  const h5::Group steps = root.group("VTKHDF").group("Steps");
-  const std::int64_t n = steps.integer_attribute("NSteps");
-  const h5::Shape times = n == 0 ? h5::Shape{0} : root.group("history").shape("t");
-  if (times.empty()) root.group("history").refuse("t", "a scalar", "one time for each step");
-  const std::int64_t rows = static_cast<std::int64_t>(times[0]);
-  if (n < 0 || n > rows)
-    steps.refuse("NSteps", fmt::format("{} steps", n), fmt::format("0 to {}", rows));
-  state_->n_steps = static_cast<std::size_t>(n);
+  check_all_units(root);
+  state_->n_steps = count_steps(root);
 }
 
 SolutionReader::~SolutionReader() = default;
@@ -130,6 +152,7 @@ int SolutionReader::n_steps() const { return static_cast<int>(state_->n_steps); 
 std::vector<Summary> SolutionReader::summary() const { return read_summary(state_->file.root()); }
 const std::string& SolutionReader::content_id() const { return state_->id; }
 
+// Row blocks of n nodes or e elements belong to each step, in the order of the steps.
 StepRecord SolutionReader::step(int index) const {
   const std::size_t i = static_cast<std::size_t>(index);
   const std::size_t n = state_->header.mesh.X.size();
@@ -144,13 +167,14 @@ StepRecord SolutionReader::step(int index) const {
   const h5::Group history = root.group("history");
   const h5::Group grid = root.group("VTKHDF");
   StepRecord record;
-  record.t = one(history, "t", i);
-  record.increment = one(history, "increment", i);
-  record.residual = one(history, "residual", i);
+  record.t = number_at(history, "t", i);
+  record.increment = number_at(history, "increment", i);
+  record.residual = number_at(history, "residual", i);
   record.iterations =
       static_cast<int>(history.read_rows<std::int64_t>("iterations", i, 1, {}).values[0]);
   for (const std::string& name : history.datasets())
-    if (!solution::among(solution::histories, name)) record.scalars[name] = one(history, name, i);
+    if (!solution::among(solution::histories, name))
+      record.scalars[name] = number_at(history, name, i);
 
   const h5::Group points = grid.group("PointData");
   const h5::Group cells = grid.group("CellData");
@@ -161,9 +185,8 @@ StepRecord SolutionReader::step(int index) const {
       record.point_fields[name] = vectors(finite_rows(points, name, i * n, n, {3}));
   for (const std::string& name : cells.datasets())
     if (!solution::is_static(name)) {
-      const auto components = static_cast<std::size_t>(solution::components_of(name));
       record.cell_fields[name] =
-          finite_rows(cells, name, i * e, e, components == 1 ? h5::Shape{} : h5::Shape{components});
+          finite_rows(cells, name, i * e, e, solution::row_shape<h5::Shape>(name));
     }
 
   if (state_->header.contact_nodes.empty()) return record;

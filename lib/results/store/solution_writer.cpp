@@ -15,6 +15,7 @@
 
 namespace langer {
 
+// The file being written and the last two records.
 struct SolutionWriter::State {
   State(h5::File f, const SolutionHeader& h, std::string where)
       : file(std::move(f)), header(h), path(std::move(where)) {}
@@ -34,8 +35,9 @@ struct SolutionWriter::State {
 
 namespace {
 
-constexpr std::size_t history_chunk = 128;  // steps; one chunk holds a usual run
+constexpr std::size_t history_chunk = 128;  // steps; one chunk is enough for a usual run
 
+// Appends rows to a dataset, which is made when its first row comes.
 template <class T>
 void extend(const h5::Group& group, const std::string& name, const h5::Shape& row,
             std::size_t chunk, const std::vector<T>& rows, const std::string& unit = "") {
@@ -43,6 +45,7 @@ void extend(const h5::Group& group, const std::string& name, const h5::Shape& ro
   group.append<T>(name, rows);
 }
 
+// Appends one row to a history.
 void add(const h5::Group& group, const std::string& name, double value, const std::string& unit) {
   extend<double>(group, name, {}, history_chunk, {value}, unit);
 }
@@ -55,11 +58,13 @@ void add(const h5::Group& group, const std::string& name, std::int64_t value,
   extend<std::int64_t>(group, name, row, history_chunk, {value});
 }
 
+// A record that a solver must never hand over.
 [[noreturn]] void bug(const std::string& key, const std::string& found,
                       const std::string& expected) {
   throw Failure(Exit::bug, Error{{}, "StepRecord." + key, found, expected, ""});
 }
 
+// Refuses an array of another length than the mesh or the contact asks for.
 void check_length(const std::string& key, std::size_t length, std::size_t expected) {
   if (length != expected) bug(key, fmt::format("{} entries", length), fmt::format("{}", expected));
 }
@@ -73,6 +78,7 @@ void check_finite(const std::string& key, const std::vector<T>& values) {
     if (!finite(values[i])) bug(key, fmt::format("entry {} is not finite", i), "finite numbers");
 }
 
+// The keys of a map, as a text to compare.
 std::string names_of(const auto& map) {
   std::string names;
   for (const auto& [name, value] : map) names += name + " ";
@@ -83,20 +89,21 @@ std::string names_of(const auto& map) {
 
 SolutionWriter::SolutionWriter(const std::string& path, const SolutionHeader& header,
                                const StillGood& still_good) {
-  const auto begin = [&] {  // the journal looks first at what is there
+  // The journal needs the old <path>.part, so the new file is begun when its first step is
+  // accepted.
+  const auto begin = [&] {
     if (state_) return;
     state_ = std::make_unique<State>(h5::File::create(path, h5::Unfinished::keep), header, path);
     state_->begin();
     sync_folder_of(path);
   };
-  auto journal = std::make_unique<StepJournal>(path, header,
-                                               [&](const StepRecord& step, const EarlierRun& run) {
-                                                 if (still_good && !still_good(step, run))
-                                                   return false;
-                                                 begin();
-                                                 state_->append(step);
-                                                 return true;
-                                               });
+  const auto accept = [&](const StepRecord& step, const EarlierRun& run) {
+    if (still_good && !still_good(step, run)) return false;
+    begin();
+    state_->append(step);
+    return true;
+  };
+  auto journal = std::make_unique<StepJournal>(path, header, accept);
   begin();
   state_->journal = std::move(journal);
 }
@@ -110,6 +117,8 @@ const std::vector<EarlierRun>& SolutionWriter::earlier() const {
   return state_->journal->earlier();
 }
 
+// Everything that does not depend on steps: identity, mesh, materials, fibre directions,
+// contacts.
 void SolutionWriter::State::begin() {
   const h5::Group root = file.root();
   write_identity(root, schema_of(solution_schema, header.mesh), header.identity);
@@ -127,11 +136,12 @@ void SolutionWriter::State::begin() {
   int families = 0;
   if (header.directions.from_field()) families = header.directions.n_families();
   for (int k = 0; k < families; ++k) {
-    std::vector<Vec3> directions;  // zero in cells without this family
+    // The direction is zero in elements without this family.
+    std::vector<Vec3> directions;
     for (int e = 0; e < header.mesh.n_cells(); ++e) {
       const auto a = header.directions.of(e);
-      directions.push_back(static_cast<std::size_t>(k) < a.size() ? a[static_cast<std::size_t>(k)]
-                                                                  : Vec3(Vec3::Zero()));
+      Vec3& direction = directions.emplace_back(Vec3::Zero());
+      if (static_cast<std::size_t>(k) < a.size()) direction = a[static_cast<std::size_t>(k)];
     }
     grid.group("CellData")
         .write<double>(fmt::format("fibre_{}", k + 1), {directions.size(), 3}, flat(directions),
@@ -151,7 +161,7 @@ void SolutionWriter::State::begin() {
   file.flush();
 }
 
-// Before anything is written, so that a refused record leaves no rows behind.
+// Checks a record before anything is written, so that a refused record leaves no rows behind.
 void SolutionWriter::State::check(const StepRecord& record) const {
   check_length("u", record.u.size(), header.mesh.X.size());
   check_length("reaction", record.reaction.size(), header.mesh.X.size());
@@ -196,11 +206,12 @@ void SolutionWriter::State::check(const StepRecord& record) const {
   }
 }
 
+// Appends a step to the journal, to VTKHDF and to the histories. The number of steps is written
+// last, after a flush: a reader of the growing file sees complete steps only.
 void SolutionWriter::State::append(const StepRecord& record) {
   check(record);
-  if (journal)
-    journal->append(
-        record);  // from here on the step has been made, whatever becomes of the HDF5 file
+  // After this line the step is kept, whatever happens to the HDF5 file.
+  if (journal) journal->append(record);
   const h5::Group root = file.root();
   const h5::Group grid = root.group("VTKHDF");
   const h5::Group history = root.group("history");
@@ -220,9 +231,9 @@ void SolutionWriter::State::append(const StepRecord& record) {
     add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
   }
   for (const auto& [name, values] : record.cell_fields) {
-    const auto components = static_cast<std::size_t>(solution::components_of(name));
-    if (components == 9 && n_steps == 0) cells.attribute("Tensors", name);  // as VTK marks them
-    extend<double>(cells, name, components == 1 ? h5::Shape{} : h5::Shape{components}, e, values,
+    const bool is_tensor = solution::components_of(name) == 9;
+    if (is_tensor && n_steps == 0) cells.attribute("Tensors", name);  // VTK's active tensor
+    extend<double>(cells, name, solution::row_shape<h5::Shape>(name), e, values,
                    solution::unit_of(name));
     add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
   }
@@ -247,7 +258,6 @@ void SolutionWriter::State::append(const StepRecord& record) {
   }
   if (!header.contact_nodes.empty()) contact(record);
 
-  // after everything it covers is in the file: who reads along sees whole steps
   file.flush();
   steps.attribute("NSteps", std::int64_t{++n_steps});
   file.flush();
@@ -255,6 +265,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   last = record;
 }
 
+// Appends the arrays of each contact and the numbers of open, sticking and slipping candidates.
 void SolutionWriter::State::contact(const StepRecord& record) {
   const h5::Group root = file.root();
   const h5::Group history = root.group("history");
@@ -279,19 +290,22 @@ void SolutionWriter::State::contact(const StepRecord& record) {
         counts[s]);
 }
 
-// empty: cells that XDMF does not know, or no step
+// The XDMF text for ParaView and VisIt; empty without steps or with elements that XDMF does not
+// know.
 std::string SolutionWriter::State::as_xdmf() {
   if (n_steps == 0 || !without_xdmf(header.mesh).empty()) return {};
   const h5::Group grid = file.root().group("VTKHDF");
   std::vector<XdmfArray> arrays;
-  for (const bool of_cells : {false, true})
-    for (const h5::Group group = grid.group(of_cells ? "CellData" : "PointData");
-         const std::string& name : group.datasets()) {
+  for (const bool of_cells : {false, true}) {
+    const h5::Group group = grid.group(of_cells ? "CellData" : "PointData");
+    for (const std::string& name : group.datasets()) {
+      if (name == "body") continue;  // integers, in the mesh
       const h5::Shape shape = group.shape(name);
-      if (name == "body") continue;  // whole numbers, in the mesh
-      arrays.push_back({name, shape.size() > 1 ? static_cast<int>(shape[1]) : 1, of_cells,
-                        of_cells && solution::is_static(name)});
+      XdmfArray array{name, 1, of_cells, of_cells && solution::is_static(name)};
+      if (shape.size() > 1) array.components = static_cast<int>(shape[1]);
+      arrays.push_back(array);
     }
+  }
   const auto times =
       grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
   return xdmf(header.mesh, std::filesystem::path(path).filename().string(), times, arrays);
@@ -299,17 +313,19 @@ std::string SolutionWriter::State::as_xdmf() {
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
 
-void SolutionWriter::say_image_of(const std::string& which) {
+void SolutionWriter::write_image_of(const std::string& which) {
   state_->file.root().group("provenance").write_text("image_of", which);
 }
 
 namespace {
-// steps that were made by other settings than those of the config in the file
+
+// Writes the runs that computed the steps, unless all had the config that is in the file.
 void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& runs,
                    const std::string& config) {
-  if (std::all_of(runs.begin(), runs.end(),
-                  [&](const EarlierRun& r) { return r.config == config; }))
-    return;
+  const auto has_config = [&](const EarlierRun& run) {
+    return run.config == config;
+  };
+  if (std::ranges::all_of(runs, has_config)) return;
   const h5::Group earlier = provenance.make_group("earlier");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const h5::Group one = earlier.make_group(std::to_string(i));
@@ -322,6 +338,8 @@ void write_earlier(const h5::Group& provenance, const std::vector<EarlierRun>& r
 }
 }  // namespace
 
+// Adds histories and numbers that the whole path decides, writes the XDMF text and gives the file
+// its final name. The journal is removed last.
 void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<Summary>& summary,
                             const Histories& found_later) {
   const h5::Group history = state_->file.root().group("history");
@@ -335,7 +353,7 @@ void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<S
   write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);
   if (const std::string text = state_->as_xdmf(); !text.empty())
     write_text_file(std::filesystem::path(state_->path).replace_extension(".xdmf").string(), text);
-  state_->file.commit();  // last: once it is there, everything is
+  state_->file.commit();  // last: a file with its final name is complete
   state_->journal->remove();
 }
 

@@ -7,13 +7,14 @@
 
 #include "core/base/error.hpp"
 #include "core/base/say.hpp"
+#include "core/base/text.hpp"
 #include "core/hdf5/checksum.hpp"
 
 namespace langer {
 
 namespace {
 
-// values one after another, as they lie in memory; lists and words with their length before them
+// Writes values one after another as they are in memory. Lists and texts begin with their length.
 class Packer {
  public:
   std::string bytes;
@@ -61,7 +62,8 @@ class Packer {
   }
 };
 
-// The other way; what does not fit makes `good` false and the rest empty.
+// Reads what Packer wrote. If the bytes do not fit, `good` becomes false and the remaining values
+// are empty.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : rest_(bytes) {}
@@ -101,11 +103,14 @@ class Unpacker {
   }
 
  private:
-  std::size_t length(std::size_t of_one) {
+  // The length of a list whose entries have at least `size` bytes. A length beyond the bytes that
+  // are left is damage, not a reason to allocate memory.
+  std::size_t length(std::size_t size) {
     std::size_t n = 0;
     get(n);
-    if (n > rest_.size() / of_one) good = false;
-    return good ? n : 0;
+    if (n > rest_.size() / size) good = false;
+    if (good) return n;
+    return 0;
   }
   void copy(void* to, std::size_t n) {
     if (n > rest_.size()) good = false;
@@ -116,9 +121,11 @@ class Unpacker {
   std::string_view rest_;
 };
 
-enum Kind : char { of_task = 'T', of_run = 'R', of_step = 'S' };
+// The first byte of a record.
+enum Kind : char { task_record = 'T', run_record = 'R', step_record = 'S' };
 
-void each_field(auto& r, auto&& field) {
+// Calls a function with each member of a step record, in the order of the file.
+void for_each_field(auto& r, auto&& field) {
   field(r.t);
   field(r.increment);
   field(r.iterations);
@@ -133,24 +140,33 @@ void each_field(auto& r, auto&& field) {
   field(r.contacts);
 }
 
+// A step as the bytes of a record.
 std::string packed(const StepRecord& record) {
   Packer p;
-  p.put(static_cast<char>(of_step));
-  each_field(record, [&](const auto& value) { p.put(value); });
+  p.put(static_cast<char>(step_record));
+  const auto put = [&](const auto& value) {
+    p.put(value);
+  };
+  for_each_field(record, put);
   return std::move(p.bytes);
 }
 
+// A step from the bytes of a record; nothing if they do not fit.
 std::optional<StepRecord> unpacked_step(std::string_view bytes) {
   StepRecord record;
   Unpacker u(bytes);
-  each_field(record, [&](auto& value) { u.get(value); });
+  const auto get = [&](auto& value) {
+    u.get(value);
+  };
+  for_each_field(record, get);
   if (u.done()) return std::optional(record);
   return std::nullopt;
 }
 
+// The run that computes the following steps: config, command, version and time.
 std::string packed_run(const Identity& identity) {
   Packer p;
-  p.put(static_cast<char>(of_run));
+  p.put(static_cast<char>(run_record));
   for (const std::string& text : {identity.config, identity.command, code_version(), utc_now()})
     p.put(text);
   return std::move(p.bytes);
@@ -163,35 +179,41 @@ EarlierRun unpacked_run(std::string_view bytes) {
   return r;
 }
 
-// what kept steps depend on, each with the word for what has changed where it is another
+// What kept steps depend on. The message of a journal that is begun anew names the first
+// difference.
 struct Task {
   std::string code, config, arrays;
 };
 
-// directions that a field gave, by cell; empty where angles and frames, which stand beside them,
-// tell them
-std::vector<std::vector<Vec3>> field_of(const SolutionHeader& header) {
+// The directions that a field gave, by element. Empty without a field: angles and frames are in
+// the task anyway.
+std::vector<std::vector<Vec3>> directions_of_field(const SolutionHeader& header) {
   std::vector<std::vector<Vec3>> fibres;
   for (int e = 0; header.directions.from_field() && e < header.mesh.n_cells(); ++e)
     fibres.emplace_back(header.directions.of(e).begin(), header.directions.of(e).end());
   return fibres;
 }
 
-// ids know configs, not code: another version of the mesher may have made another mesh of the same
-// config
+// The task of a solution. The arrays of the mesh belong to it, because content ids depend on
+// configs, not on code: another version of the mesher may make another mesh from the same config.
 Task task_of(const SolutionHeader& header) {
   Packer arrays;
   const Mesh& mesh = header.mesh;
-  arrays.put(static_cast<int>(mesh.type)), arrays.put(mesh.X), arrays.put(mesh.connectivity),
-      arrays.put(mesh.body), arrays.put(mesh.frames);
+  arrays.put(static_cast<int>(mesh.type));
+  arrays.put(mesh.X);
+  arrays.put(mesh.connectivity);
+  arrays.put(mesh.body);
+  arrays.put(mesh.frames);
   arrays.put(mesh.node_sets);
   arrays.put(mesh.facet_sets);
-  arrays.put(field_of(header));
+  arrays.put(directions_of_field(header));
   arrays.put(header.contact_nodes);
-  if (mesh.section) arrays.put(static_cast<int>(mesh.section->of)), arrays.put(mesh.section->depth);
+  if (mesh.section) {
+    arrays.put(static_cast<int>(mesh.section->of));
+    arrays.put(mesh.section->depth);
+  }
   const Identity& identity = header.identity;
-  const std::string& steps =
-      identity.steps_hash.empty() ? identity.config_hash : identity.steps_hash;
+  const std::string steps = text_or(identity.steps_hash, identity.config_hash);
   std::string config = identity.stage + "\n" + steps + "\n" + header.formulation;
   for (const auto& [port, id] : identity.inputs) config += "\n" + port + "=" + id;
   return {code_version(), config, fmt::format("{:016x}", checksum(arrays.bytes))};
@@ -199,84 +221,99 @@ Task task_of(const SolutionHeader& header) {
 
 std::string packed(const Task& t) {
   Packer p;
-  p.put(static_cast<char>(of_task)), p.put(t.code), p.put(t.config), p.put(t.arrays);
+  p.put(static_cast<char>(task_record));
+  p.put(t.code);
+  p.put(t.config);
+  p.put(t.arrays);
   return std::move(p.bytes);
 }
 
-// why the steps behind this record are not of this task; empty where they are
-std::string difference(std::string_view record, const Task& is) {
-  Task was;
+// The reason why the steps after this record do not belong to the task; empty if they do.
+std::string difference(std::string_view record, const Task& task) {
+  Task kept;
   Unpacker u(record.substr(1));
-  u.get(was.code);
-  u.get(was.config);
-  u.get(was.arrays);
-  if (!u.done() || was.code != is.code) return "left by another version of langer";
-  if (was.config != is.config) return "left by a run with another config or other inputs";
-  if (was.arrays != is.arrays) return "left by a run with another mesh";
+  u.get(kept.code);
+  u.get(kept.config);
+  u.get(kept.arrays);
+  if (!u.done() || kept.code != task.code) return "left by another version of langer";
+  if (kept.config != task.config) return "left by a run with another config or other inputs";
+  if (kept.arrays != task.arrays) return "left by a run with another mesh";
   return "";
+}
+
+void report_new_start(const std::string& file, const std::string& reason) {
+  say_line("{}: {}; starting anew", file, reason);
 }
 
 }  // namespace
 
-StepJournal::StepJournal(const std::string& output, const SolutionHeader& header, const Take& take)
+// The steps are replayed if the first record has the present task. Otherwise the journal is begun
+// anew.
+StepJournal::StepJournal(const std::string& output, const SolutionHeader& header,
+                         const Accept& accept)
     : journal_(output + ".steps"), this_run_(packed_run(header.identity)) {
   const std::string part = output + ".part";
   const bool has_part = std::filesystem::exists(part);
   const Task task = task_of(header);
   const std::optional<std::string> first = journal_.next();
-  std::string why;  // nothing is kept
-  if (!first) {
-    if (!journal_.at_end()) {
-      why = "is damaged";
-    } else if (has_part) {
-      why = "left by a version of langer that kept no checksums";
-    } else {
-      why = "";
-    }
-  } else if (!has_part)  // whoever removes it wants to begin anew
-    why = "is without its " + part;
-  else
-    why = difference(*first, task);
-  if (!first || !why.empty()) {
-    if (!why.empty())
-      say_line("{}: {}; starting anew", first || !journal_.at_end() ? journal_.path() : part, why);
+  bool continues = false;
+  if (first) {
+    // A user who removes <output>.part wants to begin anew.
+    std::string reason = "is without its " + part;
+    if (has_part) reason = difference(*first, task);
+    continues = reason.empty();
+    if (!continues) report_new_start(journal_.path(), reason);
+  } else if (!journal_.at_end()) {
+    report_new_start(journal_.path(), "is damaged");
+  } else if (has_part) {
+    report_new_start(part, "left by a version of langer that kept no checksums");
+  }
+  if (continues) {
+    replay(accept);
+  } else {
     journal_.clear();
     journal_.append(packed(task));
-  } else
-    replay(take);
+  }
   journal_.append(this_run_);
 }
 
-void StepJournal::replay(const Take& take) {
+// Reads runs and steps up to the end, to the first damaged record or to the first step that is not
+// accepted. Runs without steps are not listed.
+void StepJournal::replay(const Accept& accept) {
   int steps = 0;
-  bool dropped = false;
-  while (const std::optional<std::string> record = dropped ? std::nullopt : journal_.next()) {
+  bool discarded = false;
+  while (!discarded) {
+    const std::optional<std::string> record = journal_.next();
+    if (!record) break;
     const std::string_view content = std::string_view(*record).substr(1);
-    if (record->front() == of_run) {
+    if (record->front() == run_record) {
       earlier_.push_back(unpacked_run(content));
       continue;
     }
     const std::optional<StepRecord> step = unpacked_step(content);
-    dropped = !step || earlier_.empty() || !take(*step, earlier_.back());
-    if (dropped)
+    discarded = !step || earlier_.empty() || !accept(*step, earlier_.back());
+    if (discarded) {
       journal_.put_back();
-    else {
+    } else {
       ++earlier_.back().steps;
       ++steps;
     }
   }
-  if (!dropped && !journal_.at_end())
+  if (!discarded && !journal_.at_end())
     say_line("{}: damaged, or a step was cut off; continuing after the {} steps before",
              journal_.path(), steps);
-  std::erase_if(earlier_, [](const EarlierRun& r) { return r.steps == 0; });
+  const auto has_no_steps = [](const EarlierRun& run) {
+    return run.steps == 0;
+  };
+  std::erase_if(earlier_, has_no_steps);
 }
 
 void StepJournal::append(const StepRecord& record) { journal_.append(packed(record)); }
 
-void forget_steps(const std::string& output) {
-  std::error_code what_stays_is_said;  // by the journal that finds it
-  for (const char* ending : {".part", ".steps"})
-    std::filesystem::remove(output + ending, what_stays_is_said);
+void discard_steps(const std::string& output) {
+  // A file that cannot be removed is reported by the journal that finds it.
+  std::error_code ignored;
+  for (const char* ending : {".part", ".steps"}) std::filesystem::remove(output + ending, ignored);
 }
 
 }  // namespace langer

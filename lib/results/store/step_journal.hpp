@@ -1,9 +1,11 @@
-// <output>.steps: the journal of a solve that has not ended, from which the next run goes on.
+// <output>.steps: the journal of a solve that has not finished, from which the next run continues.
 // docs/schema.md
-//   first record   the task: what the steps are steps of
-//   then           a record for each run (its config, command, code) and one for each accepted step, in the order they came
-// The HDF5 file <output>.part is made from it anew: after a crash nobody can tell what of an HDF5
-// file is whole, and HDF5 may crash on it.
+//   first record   the task: identifies what the steps belong to
+//   then           a record for each run (its config, command, code) and one for each accepted
+//                  step, in order of time
+// The HDF5 file <output>.part is written again from the journal. After a crash it is not known
+// which parts of an HDF5 file are complete, and the HDF5 library itself may crash on a damaged
+// file.
 #pragma once
 
 #include <string>
@@ -14,25 +16,27 @@
 
 namespace langer {
 
+// The journal of one output.
 class StepJournal {
  public:
-  // Reads what an earlier run of the same task left and gives its steps one after another to
-  // `take`, until that says false: this step and all behind it are dropped. Of another task,
-  // another version of langer, or without its <output>.part: begun anew, which is said.
-  using Take = SolutionWriter::StillGood;
-  StepJournal(const std::string& output, const SolutionHeader& header, const Take& take);
+  // Reads the steps that an earlier run of the same task kept and gives them one after another to
+  // `accept`. If it returns false, this step and all after it are discarded. The journal is begun
+  // anew, with a message, if it belongs to another task or another version of langer, or if
+  // <output>.part is missing.
+  using Accept = SolutionWriter::StillGood;
+  StepJournal(const std::string& output, const SolutionHeader& header, const Accept& accept);
   void append(const StepRecord& step);
   const std::vector<EarlierRun>& earlier() const { return earlier_; }  // with at least one step
   void remove() { journal_.remove(); }
 
  private:
-  void replay(const Take& take);
+  void replay(const Accept& accept);
   Journal journal_;
   std::string this_run_;
   std::vector<EarlierRun> earlier_;
 };
 
-// what a solve has kept of a model that another one takes the place of
-void forget_steps(const std::string& output);
+// Removes the kept steps of a solve whose model was replaced by another one.
+void discard_steps(const std::string& output);
 
 }  // namespace langer

@@ -9,6 +9,8 @@ namespace langer {
 
 namespace {
 
+// Standard errors, correlations, profiles, bootstrap and advice; parts that the study lacks are
+// left out.
 void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& r) {
   group.attribute("order", fmt::format("{}", fmt::join(r.names, " ")));
   group.attribute("words", r.words);
@@ -60,6 +62,8 @@ void write_identifiability(const h5::Group& group, const IdentifiabilityRecord& 
   }
 }
 
+// The stability map: for each path and angle the amounts at which stiffness or ellipticity is
+// lost.
 void write_stability(const h5::Group& group, const StabilityRecord& r) {
   const StabilityMap& map = r.map;
   group.attribute("verdict", r.verdict);

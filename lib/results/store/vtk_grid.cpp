@@ -26,15 +26,17 @@ void write_integers(const h5::Group& group, const std::string& name, const h5::S
   group.write<std::int64_t>(name, shape, values);
 }
 
+// The frame of element e, from the columns of all frames.
 Mat3 orthonormal(const h5::Group& group, const std::vector<double>* columns, int e) {
   Mat3 frame;
   for (int i = 0; i < 3; ++i) frame.col(i) = Vec3(columns[i].data() + std::size_t{3} * e);
-  // files keep all digits of a double; 1e-9 leaves room for frames made by other tools
+  // Files keep all digits of a double. 1e-9 allows for frames made by other tools.
   if (!((frame.transpose() * frame - Mat3::Identity()).norm() < 1e-9 && frame.determinant() > 0))
     group.refuse("e_x", fmt::format("the frame of cell {} is not orthonormal and right-handed", e));
   return frame;
 }
 
+// Whole numbers from 0 to below a bound.
 std::vector<int> indices(const h5::Group& group, const std::string& name, const h5::Shape& shape,
                          std::int64_t below) {
   const auto array = group.read<std::int64_t>(name, shape);
@@ -44,6 +46,7 @@ std::vector<int> indices(const h5::Group& group, const std::string& name, const 
   return {array.values.begin(), array.values.end()};
 }
 
+// A number of points or elements. The bound keeps products with 8 nodes within int.
 std::int64_t count(const h5::Group& group, const std::string& name) {
   const std::int64_t n = group.read<std::int64_t>(name, {1}).values[0];
   if (n < 1 || n > std::numeric_limits<int>::max() / 8)
@@ -66,6 +69,7 @@ std::vector<Vec3> vectors(const std::vector<double>& flat) {
   return vectors;
 }
 
+// The arrays that VTK asks for, then body and frame of each element as fields of elements.
 h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& version) {
   const h5::Group grid = root.make_group("VTKHDF");
   grid.attribute("Version", version);
@@ -98,6 +102,7 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   return grid;
 }
 
+// Node sets as numbers of nodes, facet sets as pairs of element and local facet.
 void write_sets(const h5::Group& root, const Mesh& mesh) {
   const h5::Group sets = root.make_group("sets");
   const h5::Group nodes = sets.make_group("nodes");
@@ -115,10 +120,12 @@ void write_section(const h5::Group& root, const Mesh& mesh) {
   if (!mesh.section) return;
   const h5::Group group = root.make_group("section");
   group.attribute("of", std::string(names(mesh.section->of)[static_cast<int>(mesh.section->of)]));
-  group.write_scalar("depth", mesh.section->depth,
-                     mesh.section->of == SectionOf::axisymmetric ? "-" : "mm");
+  const bool axisymmetric = mesh.section->of == SectionOf::axisymmetric;
+  group.write_scalar("depth", mesh.section->depth, axisymmetric ? "-" : "mm");
 }
 
+// Each hanging node with the four nodes that it depends on. Two of them are repeated if it is on
+// an edge.
 void write_hanging(const h5::Group& root, const Mesh& mesh) {
   if (mesh.hanging.empty()) return;
   const h5::Group group = root.make_group("hanging");
@@ -139,6 +146,7 @@ Schema schema_of(const Schema& schema, const Mesh& mesh) {
 
 namespace {
 
+// A section must be one layer of elements, as its mesher makes it.
 void read_section(const h5::Group& root, Mesh& mesh) {
   if (!root.has("section")) return;
   const h5::Group group = root.group("section");
@@ -152,6 +160,7 @@ void read_section(const h5::Group& root, Mesh& mesh) {
     group.refuse("", fault, "one layer of cells behind z = 0");
 }
 
+// The nodes must be between those of larger elements.
 void read_hanging(const h5::Group& root, Mesh& mesh) {
   if (!root.has("hanging")) return;
   const h5::Group group = root.group("hanging");
@@ -164,23 +173,24 @@ void read_hanging(const h5::Group& root, Mesh& mesh) {
     group.refuse("node", fault, "nodes between those of larger hexahedra");
 }
 
+// The type of all elements; refuses types that are unknown or mixed.
 CellType type_of(const h5::Group& grid, const std::vector<std::uint8_t>& types) {
   std::string known;
   for (const ReferenceCell& cell : reference_cells()) {
-    if (std::all_of(types.begin(), types.end(),
-                    [&](std::uint8_t type) { return type == cell.names.vtk; }))
-      return cell.type;
-    known += fmt::format("{}{} ({})", known.empty() ? "one of " : ", ", cell.names.vtk,
-                         cell.names.vtk_word);
+    if (std::ranges::count(types, cell.names.vtk) == std::ssize(types)) return cell.type;
+    append(known, ", ", fmt::format("{} ({})", cell.names.vtk, cell.names.vtk_word));
   }
-  const auto other =
-      std::find_if(types.begin(), types.end(), [&](std::uint8_t type) { return type != types[0]; });
-  grid.refuse("Types", fmt::format("VTK cell type {}", other == types.end() ? types[0] : *other),
-              known + "; one for all");
+  // The message names the first type that differs from the others, or the type of all.
+  std::uint8_t found = types[0];
+  for (std::uint8_t type : types) {
+    if (found == types[0]) found = type;
+  }
+  grid.refuse("Types", fmt::format("VTK cell type {}", found), "one of " + known + "; one for all");
 }
 
 }  // namespace
 
+// Every index is checked before it is used, so that a damaged file cannot crash a stage.
 Mesh read_grid(const h5::Group& root) {
   const h5::Group grid = root.group("VTKHDF");
   const h5::Group cells = grid.group("CellData");
@@ -228,6 +238,7 @@ Mesh read_grid(const h5::Group& root) {
   return mesh;
 }
 
+// The surface of an indenter: points and the corners of its triangles.
 void write_triangles(const h5::Group& group, const Triangles& triangles) {
   group.write<double>("points", {triangles.points.size(), 3}, flat(triangles.points), "mm");
   Integers corners;

@@ -1,7 +1,7 @@
-// A path as a time series that ParaView, PyVista, VisIt and meshio open: one .vtu for each state,
-// and a .pvd that names them with their times. VTK XML, arrays as they are in memory behind the
-// text (appended, raw, header UInt64). Of each place the first scalar, vector and symmetric tensor
-// are marked as the active ones; `time` stands as TimeValue in each file.
+// A path as a time series for ParaView, PyVista, VisIt and meshio: one .vtu file for each state and
+// a .pvd file that lists them with their times. The files are VTK XML; the arrays follow the text
+// as they are in memory (appended, raw, header UInt64). The first scalar, vector and symmetric
+// tensor of points and of elements are marked as the active ones; `time` is TimeValue in each file.
 #pragma once
 
 #include <string>
@@ -13,14 +13,15 @@
 
 namespace langer {
 
-// positions are the mesh's own (reference); throws Failure(input) where it cannot be written
+// The positions are those of the mesh (reference). Throws Failure(input) if the file cannot be
+// written.
 void write_vtu(const std::string& path, const Mesh& mesh, double time,
                const std::vector<Field>& point_fields, const std::vector<Field>& cell_fields);
-// files: time and path of each state, relative to the .pvd's folder
+// `files` has the time and path of each state, relative to the folder of the .pvd file.
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& files);
 
-// attributes Scalars, Vectors, Tensors of a place: names of the first fields with 1, 3, 6
-// components; "" where there is none
+// The attributes Scalars, Vectors and Tensors of points or elements: the names of the first
+// fields with 1, 3 and 6 components; "" if there is none.
 struct ActiveFields {
   std::string scalars, vectors, tensors;
 };

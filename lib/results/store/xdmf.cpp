@@ -11,30 +11,48 @@ namespace {
 
 constexpr int vtk_hexahedron = 12, vtk_triquadratic = 29;
 
-// an array of the file, or the rows of it that belong to a step
+// The dimensions of n rows of an array.
+std::string dimensions(const XdmfArray& array, std::size_t n) {
+  if (array.components > 1) return fmt::format("{} {}", n, array.components);
+  return fmt::format("{}", n);
+}
+
+// XDMF's word for the values of an array.
+const char* attribute_type(const XdmfArray& array) {
+  if (array.components == 1) return "Scalar";
+  if (array.components == 3) return "Vector";
+  if (array.components == 9) return "Tensor";
+  return "Matrix";
+}
+
+const char* topology_of(const Mesh& mesh) {
+  if (mesh.cell().names.vtk == vtk_hexahedron) return "Hexahedron";
+  return "Hexahedron_27";
+}
+
+// An item of the text: a whole array, or the rows of a step. XDMF selects rows by a window of
+// start, stride and count in each dimension.
 std::string rows_of(const std::string& file, const XdmfArray& array, std::size_t rows,
                     std::size_t step, std::size_t n_steps) {
-  const std::string place =
-      fmt::format("{}:/VTKHDF/{}/{}", file, array.of_cells ? "CellData" : "PointData", array.name);
-  const bool many = array.components > 1;
-  const auto sizes = [&](std::size_t n) {
-    return many ? fmt::format("{} {}", n, array.components) : fmt::format("{}", n);
-  };
+  const char* const group = array.of_cells ? "CellData" : "PointData";
+  const std::string place = fmt::format("{}:/VTKHDF/{}/{}", file, group, array.name);
   const auto item = [&](std::size_t n) {
     return fmt::format(
-        "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{}\">{}</DataItem>",
-        sizes(n), place);
+        "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" "
+        "Dimensions=\"{}\">{}</DataItem>",
+        dimensions(array, n), place);
   };
   if (array.of_mesh) return item(rows);
-  std::string window;
-  if (many) {
+  int rank = 1;
+  std::string window = fmt::format("{} 1 {}", step * rows, rows);
+  if (array.components > 1) {
+    rank = 2;
     window = fmt::format("{} 0 1 1 {} {}", step * rows, rows, array.components);
-  } else {
-    window = fmt::format("{} 1 {}", step * rows, rows);
   }
   return fmt::format(
-      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Format=\"XML\" Dimensions=\"3 {}\">{}</DataItem>{}</DataItem>",
-      sizes(rows), many ? 2 : 1, window, item(rows * n_steps));
+      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\"><DataItem Format=\"XML\" Dimensions=\"3 "
+      "{}\">{}</DataItem>{}</DataItem>",
+      dimensions(array, rows), rank, window, item(rows * n_steps));
 }
 
 }  // namespace
@@ -45,6 +63,8 @@ std::string without_xdmf(const Mesh& mesh) {
   return "XDMF has no cells of this kind";
 }
 
+// One grid per step. All grids share topology and geometry and select their own rows of the
+// arrays.
 std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<double>& times,
                  const std::vector<XdmfArray>& arrays) {
   const std::size_t n = mesh.X.size();
@@ -52,29 +72,30 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
   const std::size_t per_cell = nodes_per_cell(mesh.type);
   const std::string name = xml_text(file);
   std::string s =
-      "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf "
+      "Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
     s += fmt::format("<Grid Name=\"step_{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", i + 1,
                      times[i]);
     s += fmt::format(
-        "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
+        "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"><DataItem Format=\"HDF\" "
+        "NumberType=\"Int\" Precision=\"8\" "
         "Dimensions=\"{}\">{}:/VTKHDF/Connectivity</DataItem></Topology>\n",
-        mesh.cell().names.vtk == vtk_hexahedron ? "Hexahedron" : "Hexahedron_27", e, e * per_cell,
-        name);
+        topology_of(mesh), e, e * per_cell, name);
     s += fmt::format(
-        "<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" "
+        "<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
+        "Precision=\"8\" "
         "Dimensions=\"{} 3\">{}:/VTKHDF/Points</DataItem></Geometry>\n",
         n, name);
-    for (const XdmfArray& array : arrays)
-      s += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
-                       xml_text(array.name),
-                       array.components == 1   ? "Scalar"
-                       : array.components == 3 ? "Vector"
-                       : array.components == 9 ? "Tensor"
-                                               : "Matrix",
-                       array.of_cells ? "Cell" : "Node",
-                       rows_of(name, array, array.of_cells ? e : n, i, times.size()));
+    for (const XdmfArray& array : arrays) {
+      std::size_t rows = n;
+      if (array.of_cells) rows = e;
+      s +=
+          fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                      xml_text(array.name), attribute_type(array), array.of_cells ? "Cell" : "Node",
+                      rows_of(name, array, rows, i, times.size()));
+    }
     s += "</Grid>\n";
   }
   return s + "</Grid>\n</Domain>\n</Xdmf>\n";

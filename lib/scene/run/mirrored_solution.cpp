@@ -206,7 +206,7 @@ Mirrored mirrored(const MirrorTask& task) {
       task.output,
       header_of(mesh, scene.formulation, scene, with_steps_hash(task.identity, task.config)),
       [](const StepRecord&, const EarlierRun&) { return false; });
-  file.say_image_of(fmt::format("{} {} ({})", op->name, other.content_id(), task.of));
+  file.write_image_of(fmt::format("{} {} ({})", op->name, other.content_id(), task.of));
   StepRecord last;
   for (int i = 0; i < other.n_steps(); ++i)
     file.append(last = image_of_step(other.step(i), op->symmetry, scene.contacts));
