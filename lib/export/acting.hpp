@@ -1,7 +1,8 @@
-// Families that do nothing are left out of what other programs get: some divide by their modulus,
-// some refuse it.
+// Fibre families without stiffness are not given to other programs: some of them divide by the
+// modulus, some refuse 0.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,12 +10,13 @@
 
 namespace langer {
 
+// The material without such families.
 inline Material acting(Material material) {
-  std::erase_if(material.fibres, [](const Fibre& family) { return !acts(family); });
+  std::erase_if(material.fibres, std::not_fn(acts));
   return material;
 }
 
-// one for each family, in the order of the material -> those of the families that act
+// The directions of the families that act. `fibres` has one for each family of the material.
 inline std::vector<Vec3> acting(const Material& material, std::span<const Vec3> fibres) {
   std::vector<Vec3> kept;
   for (std::size_t k = 0; k < material.fibres.size(); ++k)

@@ -1,6 +1,6 @@
-// A law as a material of CalculiX: *HYPERELASTIC for isotropic laws; fibres as its user material
-// ELASTIC_FIBER, which knows a neo-Hookean matrix, undispersed families and at most four of them.
-// Numbers are cut after 20 letters there, so none is longer.
+// A material as CalculiX has it: *HYPERELASTIC for isotropic models, and its user material
+// ELASTIC_FIBER for fibres, which has a neo-Hookean matrix and at most four families without
+// dispersion. CalculiX ignores digits after the 20th letter of a number, so no number is longer.
 #pragma once
 
 #include <string>
@@ -11,17 +11,19 @@
 
 namespace langer {
 
-// Keywords that Abaqus and CalculiX share, without *MATERIAL; empty where an isotropic law is none
-// of theirs.
+// The keywords that Abaqus and CalculiX share, without *MATERIAL; empty if neither has this
+// isotropic model.
 std::string hyperelastic(const Material& material);
 
-// fibres: directions of the families in the frame of the *ORIENTATION that the section names [-]
+// `fibres` are the directions of the families in the frame of the *ORIENTATION that the section
+// names [-].
 ForeignLaw calculix_material(const Material& material, const std::vector<Vec3>& fibres,
                              const std::string& name);
 
-// name of the material: that of its user material must begin so
+// The name of the material. CalculiX recognises its user material by the begin of the name.
 inline std::string calculix_name(const Material& material, const std::string& name) {
-  return (material.fibres.empty() ? "" : "ELASTIC_FIBER_") + name;
+  if (material.fibres.empty()) return name;
+  return "ELASTIC_FIBER_" + name;
 }
 
 }  // namespace langer

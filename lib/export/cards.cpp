@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
+#include <array>
 #include "export/acting.hpp"
 #include "export/calculix_material.hpp"
 #include "export/febio_material.hpp"
@@ -16,7 +16,7 @@ namespace langer {
 
 namespace {
 
-// the matrix where it is one term of a kind
+// The matrix, if it is one term of this kind; otherwise nullptr.
 template <class Term>
 const Term* only(const Material& m) {
   if (m.matrix.size() == 1) return std::get_if<Term>(&m.matrix.front());
@@ -25,6 +25,7 @@ const Term* only(const Material& m) {
 
 std::string number(double x) { return fmt::format("{:.10g}", x); }
 
+// The number of parts of an Ogden model that have energy.
 int ogden_parts(const Ogden& law) {
   int n = 0;
   for (const auto& [mu, alpha] : law.parts()) n += mu != 0 && alpha != 0;
@@ -35,12 +36,12 @@ constexpr const char* other_volume =
     "volume term here (1/D)((J^2-1)/2 - ln J) instead of (J-1)^2/d; same bulk modulus 2/d";
 constexpr const char* units = "mm, N, MPa";
 
-// what a program lacks, and the nearest that it has
+// The note of a program that lacks the model.
 std::string note(const std::string& program, const std::string& lacks, const std::string& nearest) {
   return fmt::format("{} lacks {}; nearest: {}", program, lacks, nearest);
 }
 
-// isotropic keywords as Abaqus and CalculiX share them, with what is to be known
+// The isotropic keywords that Abaqus and CalculiX share, with notes.
 std::string isotropic(const Material& m) {
   std::string law = hyperelastic(m);
   if (law.empty()) return "";
@@ -50,31 +51,32 @@ std::string isotropic(const Material& m) {
   return law;
 }
 
-// one c1, c2, kappa for all families, as HGO and GOH implementations ask
-bool alike(const std::vector<Fibre>& fibres) {
+// Whether all families have the same c1, c2 and kappa, as implementations of HGO and GOH require.
+bool same_parameters(const std::vector<Fibre>& fibres) {
   const HgoFibre first = *as_hgo(fibres[0]);
-  for (const Fibre& f : fibres)
-    if (const HgoFibre law = *as_hgo(f);
-        law.c1 != first.c1 || law.c2 != first.c2 || f.kappa != fibres[0].kappa)
-      return false;
-  return true;
+  return std::ranges::all_of(fibres, [&](const Fibre& f) {
+    const HgoFibre law = *as_hgo(f);
+    return law.c1 == first.c1 && law.c2 == first.c2 && f.kappa == fibres[0].kappa;
+  });
 }
 
+// The volume term of the isotropic models of Abaqus and CalculiX.
 VolumeTerm volume_of_keywords(const Material& m) {
-  return only<ArrudaBoyce>(m) ? VolumeTerm::simo_taylor : VolumeTerm::quadratic;
+  if (only<ArrudaBoyce>(m)) return VolumeTerm::simo_taylor;
+  return VolumeTerm::quadratic;
 }
 
-// Holzapfel, Gasser and Ogden's law: what of a material it cannot hold, and the nearest; empty
-// where it can
-LacksAndNearest beyond_holzapfel(const Material& m) {
+// What the model of Holzapfel, Gasser and Ogden in Abaqus lacks for a material.
+Lacking beyond_holzapfel(const Material& m) {
   const auto p = polynomial(m);
   const std::string user = ", or UANISOHYPER_INV";
   if (!p || !p->neo_hookean())
     return {"fibres in a matrix other than neo-Hookean", "a neo-Hookean matrix" + user};
-  if (const auto law = beyond_hgo(m); !law.first.empty()) return {law.first, law.second + user};
+  const Lacking law = beyond_hgo(m);
+  if (!law.empty()) return {law.what, law.nearest + user};
   if (m.fibres.size() > 3)
     return {fmt::format("{} families of fibres", m.fibres.size()), "three at most" + user};
-  if (!alike(m.fibres))
+  if (!same_parameters(m.fibres))
     return {"families with moduli of their own", "one c1, c2 and kappa for all" + user};
   if (as_hgo(m.fibres[0])->c2 == 0)
     return {"c2 = 0, by which it divides", "c2: 1e-6, which differs in the seventh digit"};
@@ -84,12 +86,20 @@ LacksAndNearest beyond_holzapfel(const Material& m) {
   return beyond_volume(m.volume, VolumeTerm::simo_taylor);
 }
 
+// A comment line if the volume term has another form in the program.
+std::string volume_note(bool differs) {
+  if (differs) return fmt::format("** {}\n", other_volume);
+  return "";
+}
+
+// Keywords of Abaqus for the model of Holzapfel, Gasser and Ogden.
 std::string holzapfel(const Material& m) {
   const HgoFibre law = *as_hgo(m.fibres[0]);
   std::string s = fmt::format(
-      "{}** the section names the directions of the fibres: *SOLID SECTION, ..., ORIENTATION=FIBRES, with\n"
+      "{}** the section names the directions of the fibres: *SOLID SECTION, ..., "
+      "ORIENTATION=FIBRES, with\n"
       "**  *ORIENTATION, NAME=FIBRES, LOCAL DIRECTIONS={}\n**  1., 0., 0., 0., 1., 0.\n**  3, 0.\n",
-      of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "", m.fibres.size());
+      volume_note(of_other_form(m.volume)), m.fibres.size());
   for (const Vec3& a : fibre_directions(m))
     s += fmt::format("**  {}, 0., {}\n", number(a.x()), number(a.z()));
   return s + fmt::format(
@@ -98,29 +108,33 @@ std::string holzapfel(const Material& m) {
                  number(law.c1), number(law.c2), number(m.fibres[0].kappa));
 }
 
+// Isotropic materials and the model of Holzapfel, Gasser and Ogden.
 Card abaqus(const Material& m) {
   Card card{"Abaqus", "abaqus.inp", "", true};
-  LacksAndNearest beyond;
+  Lacking lacking;
   std::string law;
   if (m.fibres.empty()) {
     law = isotropic(m);
-    if (!law.empty() && (beyond = beyond_volume(m.volume, volume_of_keywords(m))).first.size())
-      law.clear();
-    else if (law.empty())
-      beyond = {matrix_words(m),
-                "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
-  } else if (beyond = beyond_holzapfel(m); beyond.first.empty()) {
-    law = holzapfel(m);
+    if (law.empty()) {
+      lacking = {matrix_words(m),
+                 "neo-Hooke, Mooney-Rivlin, Yeoh, polynomials, Ogden, Arruda-Boyce, or UHYPER"};
+    } else {
+      lacking = beyond_volume(m.volume, volume_of_keywords(m));
+    }
+  } else {
+    lacking = beyond_holzapfel(m);
+    if (lacking.empty()) law = holzapfel(m);
   }
-  card.exists = !law.empty();
+  card.exists = lacking.empty() && !law.empty();
   if (card.exists) {
     card.text = fmt::format("** {}\n*MATERIAL, NAME=LANGER\n{}", units, law);
   } else {
-    card.text = "** " + note("Abaqus", beyond.first, beyond.second) + "\n";
+    card.text = "** " + note("Abaqus", lacking.what, lacking.nearest) + "\n";
   }
   return card;
 }
 
+// The section of CalculiX names the frame in which the directions of the fibres are given.
 Card calculix(const Material& m) {
   std::vector<Vec3> in_frame;
   std::string section;
@@ -128,8 +142,10 @@ Card calculix(const Material& m) {
     const FibreFrame frame = fibre_frame(fibre_directions(m));
     in_frame = frame.in_frame;
     section = fmt::format(
-        "** the section names the frame of the fibres: *SOLID SECTION, ..., MATERIAL={}, ORIENTATION=FIBRES\n"
-        "*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+        "** the section names the frame of the fibres: *SOLID SECTION, ..., MATERIAL={}, "
+        "ORIENTATION=FIBRES\n"
+        "*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, "
+        "{:.12g}, {:.12g}\n",
         calculix_name(m, "LANGER"), frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1],
         frame.e2[2]);
   }
@@ -139,20 +155,17 @@ Card calculix(const Material& m) {
     card.text = "** " + note("CalculiX", law.lacks, law.nearest) + "\n";
     return card;
   }
-  card.text = fmt::format(
-      "** {}\n{}{}{}", units,
-      only<ArrudaBoyce>(m) && of_other_form(m.volume) ? fmt::format("** {}\n", other_volume) : "",
-      law.text, section);
+  const bool other_form = only<ArrudaBoyce>(m) && of_other_form(m.volume);
+  card.text = fmt::format("** {}\n{}{}{}", units, volume_note(other_form), law.text, section);
   return card;
 }
 
-// isotropic laws of TB,HYPER; empty where it has none
+// The isotropic models of TB,HYPER; empty if it has none for this material.
 std::string ansys_isotropic(const Material& m) {
   const double d = compressibility(m.volume);
-  const char* other =
-      of_other_form(m.volume)
-          ? "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n"
-          : "";
+  const char* other = "";
+  if (of_other_form(m.volume))
+    other = "! volume term here ((J^2-1)/2 - ln J)/d instead of (J-1)^2/d; same bulk modulus 2/d\n";
   const auto table = [](const char* option, int n, const std::vector<double>& constants) {
     std::string s = fmt::format("TB,HYPER,1,1,{},{}\n", n, option);
     for (std::size_t i = 0; i < constants.size(); i += 6) {
@@ -187,32 +200,39 @@ std::string ansys_isotropic(const Material& m) {
   return "";
 }
 
-// the law (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2 (I4-1)^2)-1) + E1/(2
-// E2)(...) + (J-1)^2/d
+// The exponential model of ANSYS (44): W = sum A_i (I1-3)^i + sum B_i (I2-3)^i + C1/(2 C2)(exp(C2
+// (I4-1)^2)-1) + E1/(2 E2)(...) + (J-1)^2/d.
 std::string ansys_fibres(const Material& m, const Polynomial& p) {
   std::string s = fmt::format(
-      "! no switch is documented for its fibres: where they are shortened they may push, which Langer's do not\n"
+      "! no switch is documented for its fibres: where they are shortened they may push, which "
+      "Langer's do not\n"
       "TB,AHYPER,1,1,10,EXPO\nTBDATA,1,{},{},{}\nTBDATA,4,{},{},{}\n",
       number(p.I1[0]), number(p.I1[1]), number(p.I1[2]), number(p.I2[0]), number(p.I2[1]),
       number(p.I2[2]));
   for (std::size_t k = 0; k < 2; ++k) {
-    const bool here = k < m.fibres.size();  // C1 = 0 with an exponent by which it may divide
-    s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, here ? number(as_hgo(m.fibres[k])->c1) : "0",
-                     here ? number(as_hgo(m.fibres[k])->c2) : "1");
+    // A family that does not exist has modulus 0 and an exponent by which ANSYS can divide.
+    std::string modulus = "0";
+    std::string exponent = "1";
+    if (k < m.fibres.size()) {
+      modulus = number(as_hgo(m.fibres[k])->c1);
+      exponent = number(as_hgo(m.fibres[k])->c2);
+    }
+    s += fmt::format("TBDATA,{},{},{}\n", 7 + 2 * k, modulus, exponent);
   }
+  constexpr std::array names{"AVEC", "BVEC"};
   const std::vector<Vec3> a = fibre_directions(m);
   for (std::size_t k = 0; k < a.size(); ++k)
-    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", k == 0 ? "AVEC" : "BVEC",
-                     number(a[k].x()), number(a[k].z()));
+    s += fmt::format("TB,AHYPER,1,1,3,{}\nTBDATA,1,{},0,{}\n", names.at(k), number(a[k].x()),
+                     number(a[k].z()));
   return s + fmt::format("TB,AHYPER,1,1,1,PVOL\nTBDATA,1,{}\n", number(compressibility(m.volume)));
 }
 
-// what TB,AHYPER cannot hold
-LacksAndNearest beyond_ansys(const Material& m) {
+// What TB,AHYPER lacks for a material.
+Lacking beyond_ansys(const Material& m) {
   if (!polynomial(m))
     return {"fibres in " + matrix_words(m), "a polynomial matrix (yeoh), or UserMat"};
-  if (const auto law = beyond_hgo(m); !law.first.empty())
-    return {law.first, law.second + ", or UserMat"};
+  const Lacking law = beyond_hgo(m);
+  if (!law.empty()) return {law.what, law.nearest + ", or UserMat"};
   if (m.fibres.size() > 2)
     return {fmt::format("{} families of fibres", m.fibres.size()), "two, or UserMat"};
   for (const Fibre& f : m.fibres) {
@@ -223,31 +243,34 @@ LacksAndNearest beyond_ansys(const Material& m) {
   return beyond_volume(m.volume, VolumeTerm::quadratic);
 }
 
+// Its models BOYCE and GENT have the Simo-Taylor volume term, all others the quadratic one.
 Card ansys(const Material& m) {
   Card card{"ANSYS", "ansys.txt", "", true};
   std::string law;
-  LacksAndNearest beyond;
+  Lacking lacking;
   if (m.fibres.empty()) {
     law = ansys_isotropic(m);
-    const bool other = only<ArrudaBoyce>(m) || only<Gent>(m);
-    if (!law.empty() &&
-        (beyond = beyond_volume(m.volume, other ? VolumeTerm::simo_taylor : VolumeTerm::quadratic))
-            .first.size())
-      law.clear();
-    else if (law.empty())
-      beyond = {matrix_words(m), "one of its terms alone, or UserHyper"};
-  } else if (beyond = beyond_ansys(m); beyond.first.empty()) {
-    law = ansys_fibres(m, *polynomial(m));
+    VolumeTerm term = VolumeTerm::quadratic;
+    if (only<ArrudaBoyce>(m) || only<Gent>(m)) term = VolumeTerm::simo_taylor;
+    if (law.empty()) {
+      lacking = {matrix_words(m), "one of its terms alone, or UserHyper"};
+    } else {
+      lacking = beyond_volume(m.volume, term);
+    }
+  } else {
+    lacking = beyond_ansys(m);
+    if (lacking.empty()) law = ansys_fibres(m, *polynomial(m));
   }
-  card.exists = !law.empty();
+  card.exists = lacking.empty() && !law.empty();
   if (card.exists) {
     card.text = fmt::format("! {}\n{}", units, law);
   } else {
-    card.text = "! " + note("ANSYS", beyond.first, beyond.second) + "\n";
+    card.text = "! " + note("ANSYS", lacking.what, lacking.nearest) + "\n";
   }
   return card;
 }
 
+// The text of febio_material(), or its note.
 Card febio(const Material& m) {
   const ForeignLaw law = febio_material(m, fibre_directions(m), 1, "langer");
   if (law.text.empty())
@@ -256,7 +279,8 @@ Card febio(const Material& m) {
   return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
 }
 
-// The law at once after a step: ANSYS counts its branches from there.
+// The instantaneous material right after a step, to which the branches of ANSYS refer: all moduli
+// of the matrix times the same factor.
 Material instantaneous(const Material& m, double amplified) {
   Material stiff = m;
   for (const MaterialParameter& p : parameters(stiff))
@@ -264,14 +288,15 @@ Material instantaneous(const Material& m, double amplified) {
   return stiff;
 }
 
-// with branches: TIME=PRONY and TB,PRONY give their strengths as shares of the instantaneous
-// modulus
+// Adds viscous branches. TIME=PRONY and TB,PRONY give their strengths as fractions of the
+// instantaneous modulus.
 void add_branches(const Material& m, const std::vector<ViscousBranch>& branches, Card& abaqus,
                   Card& ansys) {
   double amplified = 1;
   for (const ViscousBranch& branch : branches) amplified += branch.gamma;
   const char* transport =
-      "at large strain it leads the stress of the branches along with the rotation, Langer with all of the deformation: alike where "
+      "at large strain it leads the stress of the branches along with the rotation, Langer with "
+      "all of the deformation: alike where "
       "strains are small";
   if (abaqus.exists) {
     const std::string word = "*HYPERELASTIC,";
@@ -290,6 +315,8 @@ void add_branches(const Material& m, const std::vector<ViscousBranch>& branches,
                               number(branches[i].tau));
 }
 
+// Cards of the material without branches, to which Abaqus and ANSYS add Prony series. The others
+// get a note.
 std::vector<Card> viscous_cards(const Material& m) {
   const std::vector<ViscousBranch> branches = branches_of(m);
   Material law = m;
@@ -302,7 +329,7 @@ std::vector<Card> viscous_cards(const Material& m) {
                          number(branches[i].gamma));
   const auto refuse = [&](Card& card, const std::string& begin, const std::string& end,
                           const std::string& nearest) {
-    card.exists = false,
+    card.exists = false;
     card.text =
         begin + note(card.program, "viscous branches as they are here", nearest) + end + "\n";
   };
@@ -322,6 +349,7 @@ std::vector<Card> viscous_cards(const Material& m) {
 
 }  // namespace
 
+// The cards of all four programs.
 std::vector<Card> cards(const Material& material) {
   const Material m = acting(material);
   if (is_viscous(m)) return viscous_cards(m);

@@ -1,7 +1,7 @@
-// A fitted law as input of other programs, ready to paste, in mm, N, MPa, and a note where it does
-// not exist there. Laws are matched energy by energy: parameters are converted where a program
-// counts differently (Abaqus' Ogden: mu alpha/2), and a volume term of another form is told; its
-// bulk modulus is 2/d in any case.
+// A fitted material as input of other programs, ready to paste, in mm, N, MPa, or a note if a
+// program lacks the model. Models are matched by their energy. Parameters are converted if a
+// program defines them differently (Ogden in Abaqus: mu alpha/2). A volume term of another form is
+// noted in the card; the bulk modulus is 2/d in any case.
 #pragma once
 
 #include <string>
@@ -11,6 +11,7 @@
 
 namespace langer {
 
+// The text for one program and the name of its file.
 struct Card {
   std::string program, file, text;
   bool exists = false;  // false: the text is a note only

@@ -1,7 +1,7 @@
-// CalculiX; laws: calculix_material. Cells are C3D20R, those of hex8 with a node in the middle of
-// each edge: its own eight-node cells lock near incompressibility (C3D8) or carry errors of their
-// own of a quarter and more (C3D8R, C3D8I). hex27 lose the middles of facets and cells. The sphere
-// is a layer of hexahedra all of whose nodes are led along the path.
+// Decks of CalculiX; materials: calculix_material. Elements are C3D20R, for hex8 with a node in the
+// middle of each edge: CalculiX's own eight-node elements lock near incompressibility (C3D8) or
+// have errors of a quarter and more (C3D8R, C3D8I). hex27 lose the nodes in the middle of facets
+// and elements. The sphere is a layer of hexahedra all of whose nodes are moved along the path.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -18,29 +18,35 @@ namespace langer {
 namespace {
 
 constexpr int side_of_facet[6] = {6, 4, 3, 5, 1, 2};  // S1 ... S6 by our local facet
-constexpr double usual_stiffness = 1000;  // of contact, in units of the softest law's 2 a1 per mm
-constexpr double increment_with_fibres =
-    0.05;  // longest increment of a scene with contact and fibres
+// Penalty of contact, relative to the smallest shear modulus per mm.
+constexpr double usual_stiffness = 1000;
+// Longest increment of a scene with contact and fibres.
+constexpr double increment_with_fibres = 0.05;
 
-std::string name_of(const std::string& name) {
+// The name, if CalculiX can read it.
+std::string checked_name(const std::string& name) {
   if (name.size() > 60 || name.find_first_of("\", \n\r*=") != std::string::npos)
     throw Failure(Exit::config, Error{{"CalculiX"},
                                       "",
-                                      "the name \"" + name + "\" cannot stand in its deck",
+                                      "the name \"" + name + "\" is not allowed in its deck",
                                       "at most 60 letters without , \" * = and spaces",
                                       ""});
   return name;
 }
 
+// The numbers, sixteen to a line.
 std::string list(const std::vector<int>& numbers) {
   std::string s;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    s += fmt::format("{},{}", numbers[i], i % 16 == 15 || i + 1 == numbers.size() ? "\n" : " ");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool ends_line = i % 16 == 15 || i + 1 == numbers.size();
+    const char end = ends_line ? '\n' : ' ';
+    s += fmt::format("{},{}", numbers[i], end);
+  }
   return s;
 }
 
-// hex8 with the middles of edges (and others, which C3D20R do not use); a set that has both ends of
-// an edge has its middle
+// A hex8 mesh with nodes in the middle of edges (and of facets and elements, which C3D20R do not
+// use). A set that has both ends of an edge also has its middle.
 Mesh with_middles(const Mesh& mesh) {
   if (mesh.cell().second_order()) return mesh;
   constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
@@ -50,29 +56,34 @@ Mesh with_middles(const Mesh& mesh) {
     std::vector<char> in(out.X.size(), 0);
     for (int n : nodes) in[n] = 1;
     for (int e = 0; e < out.n_cells(); ++e)
-      for (int k = 0; k < 12; ++k)
-        if (const auto cell = out.cell(e); in[cell[ends[k][0]]] && in[cell[ends[k][1]]])
-          in[cell[8 + k]] = 2;
+      for (int k = 0; k < 12; ++k) {
+        const auto cell = out.cell(e);
+        if (in[cell[ends[k][0]]] && in[cell[ends[k][1]]]) in[cell[8 + k]] = 2;
+      }
     for (int n = 0; n < out.n_nodes(); ++n)
       if (in[n]) out.node_sets[name].push_back(n);
   }
   return out;
 }
 
+// Scenes for which CalculiX is known not to converge.
 std::vector<std::string> calculix_warnings(const Deck& deck) {
   std::vector<std::string> list;
   if (const auto stiff = too_stiff_for_contact(deck))
-    list.push_back(fmt::format(
-        "2/d is {:.3g} times the shear modulus: CalculiX's contact was found to stall beyond 1000 times; solve "
-        "with d: {:.2g} and export that",
-        stiff->ratio, stiff->d));
+    list.push_back(
+        fmt::format("2/d is {:.3g} times the shear modulus: CalculiX's contact was found to stall "
+                    "beyond 1000 times; solve "
+                    "with d: {:.2g} and export that",
+                    stiff->ratio, stiff->d));
   return list;
 }
 
+// Writes the deck from top to bottom: notes, body, contacts, steps.
 class CalculixWriter {
  public:
   explicit CalculixWriter(const Deck& deck) : deck_(deck), mesh_(with_middles(deck.mesh)) {}
 
+  // The whole deck: comment lines, body, contacts, steps.
   std::string text(const std::vector<std::string>& warnings) {
     for (const std::string& line : deck_.words) s_ += "** " + line + "\n";
     s_ += fmt::format("** {} are C3D20R here, with nodes in the middles of edges only\n",
@@ -80,15 +91,17 @@ class CalculixWriter {
     for (const std::string& line : warnings) s_ += "** warning: " + line + "\n";
     if (!deck_.contacts.empty())
       s_ += fmt::format(
-          "** spheres are rigid facets with penalty contact: stiffness {:g} times the shear modulus per mm "
+          "** spheres are rigid facets with penalty contact: stiffness {:g} times the shear "
+          "modulus per mm "
           "(PRESSURE-OVERCLOSURE); a higher\n"
-          "** one lets less of the sphere into the body. Langer has the exact sphere and lets nothing in.\n"
+          "** one reduces the penetration. Langer has the exact sphere and no penetration.\n"
           "** RF of the set RIGID_... moves the sphere: it is minus the force on the indenter\n",
           usual_stiffness);
     if (fibres_touched())
       s_ += fmt::format(
-          "** increments of {:g} at most: ELASTIC_FIBER ends the run where an iteration stretches a fibre too far, instead of "
-          "cutting the increment\n",
+          "** increments of {:g} at most: ELASTIC_FIBER ends the run if an iteration stretches a "
+          "fibre too far, instead of "
+          "reducing the increment\n",
           increment_with_fibres);
     body();
     for (std::size_t c = 0; c < deck_.contacts.size(); ++c)
@@ -109,6 +122,7 @@ class CalculixWriter {
 
   static constexpr int per_cell = 20;
 
+  // Nodes, elements with their materials, node sets and supports.
   void body() {
     std::vector<char> used(mesh_.X.size(), 0);
     for (int e = 0; e < mesh_.n_cells(); ++e)
@@ -123,16 +137,18 @@ class CalculixWriter {
       std::vector<int> numbers;
       for (int n : nodes)
         if (used[n]) numbers.push_back(n + 1);
-      s_ += fmt::format("*NSET, NSET={}\n{}", name_of(name), list(numbers));
+      s_ += fmt::format("*NSET, NSET={}\n{}", checked_name(name), list(numbers));
     }
     std::string held;
     for (const HeldSet& h : deck_.held)
       if (h.to.value == 0)
-        held += fmt::format("{}, {}, {}\n", name_of(h.set), h.axis + 1, h.axis + 1);
+        held += fmt::format("{}, {}, {}\n", checked_name(h.set), h.axis + 1, h.axis + 1);
     if (!held.empty()) s_ += "*BOUNDARY\n" + held;
   }
 
-  // cells of the same law and fibres, their laws and sections
+  // Elements in groups of the same material and fibre directions, with their materials and
+  // sections. A material has the directions in its own frame, so the angle between families must
+  // not vary.
   void laws() {
     std::vector<std::string> law_of_body(deck_.materials.size());
     std::vector<std::vector<Vec3>> components(deck_.materials.size());
@@ -145,8 +161,10 @@ class CalculixWriter {
       s_ += fmt::format("*ELEMENT, TYPE=C3D20R, ELSET={}\n", set);
       for (int e : group.cells) {
         s_ += std::to_string(e + 1);
-        for (int a = 0; a < per_cell; ++a)
-          s_ += fmt::format(",{}{}", a == 14 ? "\n" : " ", mesh_.cell(e)[a] + 1);
+        for (int a = 0; a < per_cell; ++a) {
+          const char before = a == 14 ? '\n' : ' ';  // 15 nodes fit on a line
+          s_ += fmt::format(",{}{}", before, mesh_.cell(e)[a] + 1);
+        }
         s_ += "\n";
       }
       std::vector<Vec3> in_frame;
@@ -156,26 +174,28 @@ class CalculixWriter {
         const FibreFrame frame = fibre_frame(group.fibres);
         in_frame = frame.in_frame;
         sections += fmt::format(
-            "*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}\n",
+            "*ORIENTATION, NAME=FIBRES{}, SYSTEM=RECTANGULAR\n{:.12g}, {:.12g}, {:.12g}, {:.12g}, "
+            "{:.12g}, {:.12g}\n",
             g + 1, frame.e1[0], frame.e1[1], frame.e1[2], frame.e2[0], frame.e2[1], frame.e2[2]);
         section += fmt::format(", ORIENTATION=FIBRES{}", g + 1);
       }
       sections += section + "\n";
       if (law_of_body[group.body].empty()) {
-        law_of_body[group.body] = held_by("CalculiX", calculix_material(m, in_frame, name));
+        law_of_body[group.body] = require_text("CalculiX", calculix_material(m, in_frame, name));
         components[group.body] = in_frame;
       }
       for (std::size_t k = 0; k < in_frame.size(); ++k)
         if ((in_frame[k] - components[group.body][k]).norm() > 1e-6)
-          held_by("CalculiX", {"", "fibre families whose angle to each other varies",
-                               "the same angle everywhere"});
+          require_text("CalculiX", {"", "fibre families whose angle to each other varies",
+                                    "the same angle everywhere"});
     }
     for (const std::string& law : law_of_body) s_ += law;
     s_ += sections;
   }
 
+  // The surface of the body, the rigid layer of the sphere with its material, and their contact.
   void contact(const DeckContact& c, int number) {
-    const std::string name = name_of(c.law.name);
+    const std::string name = checked_name(c.law.name);
     const std::string slave = fmt::format("SLAVE{}", number + 1);
     const std::string master = fmt::format("MASTER{}", number + 1);
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
@@ -201,10 +221,12 @@ class CalculixWriter {
     double mu = 1e300;
     for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
     s_ += fmt::format(
-        "*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, MATERIAL=RIGID_{0}\n",
+        "*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, "
+        "MATERIAL=RIGID_{0}\n",
         name, mu);
     s_ += fmt::format(
-        "*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
+        "*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, "
+        "PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
         number + 1, usual_stiffness * mu);
     if (c.law.mu > 0)
       s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
@@ -213,13 +235,16 @@ class CalculixWriter {
   }
 
   bool fibres_touched() const {
-    return !deck_.contacts.empty() &&
-           std::any_of(deck_.groups.begin(), deck_.groups.end(),
-                       [](const FibreGroup& g) { return !g.fibres.empty(); });
+    const auto is_isotropic = [](const FibreGroup& group) {
+      return group.fibres.empty();
+    };
+    return !deck_.contacts.empty() && !std::ranges::all_of(deck_.groups, is_isotropic);
   }
 
+  // One step from stop to stop of the path, with the forces that are compared with Langer's.
   void steps() {
-    const double most = fibres_touched() ? increment_with_fibres : 1;
+    double most = 1;
+    if (fibres_touched()) most = increment_with_fibres;
     double before = 0;
     for (double t : deck_.stops) {
       const double takes = t - before;
@@ -236,7 +261,8 @@ class CalculixWriter {
         for (int k = 0; k < 3; ++k)
           moved += fmt::format("RIGID_{}, {}, {}, {:.12g}\n", c.law.name, k + 1, k + 1, u[k]);
         asked += fmt::format(
-            "*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, FREQUENCY=100000\nU\n",
+            "*NODE PRINT, NSET=RIGID_{}, TOTALS=ONLY\nRF\n*NODE PRINT, NSET={}, "
+            "FREQUENCY=100000\nU\n",
             c.law.name, c.set);
       }
       std::vector<std::string> printed;

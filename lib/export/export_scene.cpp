@@ -21,10 +21,8 @@ namespace langer {
 
 namespace {
 
-// no negative zeros
-Vec3 plain(const Vec3& x) {
-  return x.unaryExpr([](double v) { return v + 0.0; });
-}
+// The vector without negative zeros.
+Vec3 plain(const Vec3& x) { return (x.array() + 0.0).matrix(); }
 
 const auto nowhere = [](const std::string&) {
   return Place{};
@@ -35,11 +33,45 @@ const auto nowhere = [](const std::string&) {
   throw Failure(Exit::config, Error{{path}, key, found, expected, ""});
 }
 
+// A position as the key of a map.
 using Spot = std::tuple<double, double, double>;
 Spot spot(const Vec3& X) { return {X[0], X[1], X[2]}; }
 
-// The config as it was solved, with the laws that it found: what files held stands in the solution
-// itself.
+// Refuses loads that decks cannot express.
+void check_loads(const SolveConfig& config, const std::string& path) {
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].on_surface())
+      refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure",
+             "imposed displacements and indenters");
+  for (std::size_t i = 0; i < config.loads.size(); ++i)
+    if (config.loads[i].rotation)
+      refuse(path, fmt::format("loads[{}].rotation", i), "a set that is turned",
+             "one that is displaced");
+}
+
+// Refuses indenters that decks cannot express.
+void check_contacts(const SolveConfig& config, const std::string& path) {
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.rotation)
+      refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.adhesion && contact.adhesion->work > 0)
+      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres",
+             "one without adhesion: decks cannot express it");
+  for (const auto& [name, contact] : config.contacts)
+    if (contact.control)
+      refuse(path, "contacts." + name + ".control", "a force-controlled indenter",
+             "one with a prescribed motion");
+  for (const auto& [name, contact] : config.contacts)
+    if (!std::holds_alternative<Sphere>(contact.rigid))
+      refuse(
+          path, "contacts." + name + ".rigid", "an indenter of another shape",
+          "a sphere, or no indenter: closest to an ellipsoid is the sphere of its curvature, to a "
+          "plane a large sphere");
+}
+
+// The config of the solution with its materials, which the solution stores itself. Refuses
+// everything that no deck can express.
 SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
   SolveConfig config =
       read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
@@ -55,49 +87,28 @@ SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
     }
     config.materials[header.mesh.bodies[b]] = body;
   }
-  for (std::size_t i = 0; i < config.loads.size(); ++i)
-    if (config.loads[i].on_surface())
-      refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure",
-             "imposed displacements and indenters");
-  for (std::size_t i = 0; i < config.loads.size(); ++i)
-    if (config.loads[i].rotation)
-      refuse(path, fmt::format("loads[{}].rotation", i), "a set that is turned",
-             "one that is displaced");
-  for (const auto& [name, contact] : config.contacts)
-    if (contact.rotation)
-      refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
-  for (const auto& [name, contact] : config.contacts)
-    if (contact.adhesion && contact.adhesion->work > 0)
-      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres",
-             "one without adhesion: no deck has this law");
-  for (const auto& [name, contact] : config.contacts)
-    if (contact.control)
-      refuse(path, "contacts." + name + ".control", "an indenter under force control",
-             "one that moves as told");
-  for (const auto& [name, contact] : config.contacts)
-    if (!ball_of(contact.rigid))
-      refuse(
-          path, "contacts." + name + ".rigid", "an indenter of another shape",
-          "a sphere, or no indenter: the nearest to an ellipsoid is the sphere of its curvature, to a plane a large one");
+  check_loads(config, path);
+  check_contacts(config, path);
   return config;
 }
 
-// The mirrored part of a body whose cells the planes do not cut; nothing where the whole has to be
-// written.
+// The symmetric part of a body, if mirror planes cut it between elements. Otherwise nullptr: the
+// whole body is written.
 const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
   if (!part || part->swaps_indenters()) return nullptr;
   const auto& share = part->cell_share();
-  if (std::any_of(share.begin(), share.end(),
-                  [&](double s) { return std::abs(s - share[0]) > 1e-12; }))
-    return nullptr;
+  const auto same_share = [&](double s) {
+    return !(std::abs(s - share[0]) > 1e-12);
+  };
+  if (!std::ranges::all_of(share, same_share)) return nullptr;
   const auto& tie = part->scene().dofs.tie;
   for (std::size_t i = 0; i < tie.size(); ++i)
     if (tie[i].of != static_cast<int>(i)) return nullptr;
   return &*part;
 }
 
-// cells whose acting fibres are alike: no other program needs families whose modulus is 0, and
-// FEBio refuses them
+// Groups of elements whose fibre families with stiffness have the same directions. Families
+// without stiffness are left out, because other programs do not need them and FEBio refuses them.
 std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   std::map<std::pair<int, std::vector<long long>>, FibreGroup> groups;
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -120,13 +131,17 @@ std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
   return list;
 }
 
+// The facets of the surface all of whose corners are in a list of nodes.
 std::vector<Facet> outer_facets(const Mesh& mesh, const std::vector<int>& nodes) {
-  const std::set<int> may(nodes.begin(), nodes.end());
+  const std::set<int> candidates(nodes.begin(), nodes.end());
+  const auto is_candidate = [&](int node) {
+    return candidates.count(node) > 0;
+  };
   std::map<std::array<int, 4>, std::pair<int, Facet>> seen;
   for (int e = 0; e < mesh.n_cells(); ++e)
     for (int f = 0; f < mesh.cell().n_facets(); ++f) {
       const auto key = facet_key(mesh, {e, f});
-      if (!std::all_of(key.begin(), key.end(), [&](int n) { return may.count(n) > 0; })) continue;
+      if (!std::ranges::all_of(key, is_candidate)) continue;
       auto& [times, facet] = seen[key];
       ++times;
       facet = {e, f};
@@ -137,6 +152,7 @@ std::vector<Facet> outer_facets(const Mesh& mesh, const std::vector<int>& nodes)
   return facets;
 }
 
+// The shortest edge of the facets, to which the facets of the sphere are adapted.
 double shortest_side(const Mesh& mesh, const std::vector<Facet>& facets) {
   double least = 1e300;
   for (const Facet& facet : facets)
@@ -146,6 +162,8 @@ double shortest_side(const Mesh& mesh, const std::vector<Facet>& facets) {
   return least;
 }
 
+// The contact of a deck. Its cap covers all positions of the candidates relative to the sphere,
+// with facets of half the shortest side of the body's facets.
 DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::string& set,
                        const Vec3& towards, const std::string& path) {
   DeckContact contact{law, set, outer_facets(mesh, law.nodes), {}};
@@ -166,7 +184,7 @@ DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::str
 
 namespace {
 
-// forces at the last step, of the whole body
+// Comment lines with Langer's forces at the last step, of the whole body.
 std::vector<std::string> answers(const SolutionReader& solution, const SolveConfig& config) {
   std::vector<std::string> lines;
   if (solution.n_steps() == 0) return lines;
@@ -193,22 +211,23 @@ std::vector<std::string> answers(const SolutionReader& solution, const SolveConf
 }  // namespace
 
 std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
-  constexpr double borne =
-      1000;  // measured: 500 to 1000 in FEBio 4.11, 370 in CalculiX 2.20, which stalls at 3700
+  // Measured: converged up to ratios of 500 to 1000 in FEBio 4.11 and 370 in CalculiX 2.20, which
+  // stalls at 3700.
+  constexpr double largest_ratio = 1000;
   TooStiff worst;
   for (const Material& m : deck.materials) {
     const double mu = shear_modulus(m);
     const double ratio = bulk_modulus(m) / mu;
-    if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (borne * mu)};
+    if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (largest_ratio * mu)};
   }
-  if (deck.contacts.empty() || worst.ratio <= borne * (1 + 1e-9)) return std::nullopt;
+  if (deck.contacts.empty() || worst.ratio <= largest_ratio * (1 + 1e-9)) return std::nullopt;
   return worst;
 }
 
 namespace {
 
-// A deck on its way: the scene as it was solved, of which the part that decides the rest is
-// written.
+// Composes a deck from the scene that was solved. If symmetry determines the rest, a part of the
+// body is written.
 class DeckComposer {
  public:
   DeckComposer(const SolutionReader& solution, const SolveConfig& config, const std::string& path)
@@ -220,6 +239,7 @@ class DeckComposer {
         found_(ReducedScene::find(config_.symmetry, header_.mesh, whole_, nowhere)),
         part_(exportable(found_)) {}
 
+  // Composes the whole deck; may be called once.
   Deck deck() {
     if (part_) {
       deck_.mesh = part_->mesh();
@@ -234,11 +254,11 @@ class DeckComposer {
     deck_.share = static_cast<double>(header_.mesh.n_cells()) / deck_.mesh.n_cells();
     deck_.words.push_back(fmt::format("a scene of langer-solve, {}{} ({}); mm, N, MPa", written_by,
                                       version, revision));
-    hold_and_move();
-    hold_mirror_planes();
+    add_supports_and_loads();
+    add_mirror_planes();
     for (std::size_t c = 0; c < scene().contacts.size(); ++c) add_contact(c);
-    take_increments();
-    say_the_rest();
+    set_increments();
+    add_remarks();
     return std::move(deck_);
   }
 
@@ -253,35 +273,42 @@ class DeckComposer {
     return whole_;
   }
 
-  // Nodes of a set of the whole body in what is written; false where none of them is.
-  bool name_set(const std::string& set) {
+  // Adds the nodes of a set that are in the written part. Returns false if there are none.
+  bool add_set(const std::string& set) {
     std::vector<int>& nodes = deck_.mesh.node_sets[set];
     if (!nodes.empty()) return true;
-    for (int n : header_.mesh.node_sets.at(set))
-      if (const auto at = number_.find(spot(header_.mesh.X[n])); at != number_.end())
-        nodes.push_back(at->second);
+    for (int n : header_.mesh.node_sets.at(set)) {
+      const auto at = number_.find(spot(header_.mesh.X[n]));
+      if (at != number_.end()) nodes.push_back(at->second);
+    }
     std::sort(nodes.begin(), nodes.end());
     if (nodes.empty()) deck_.mesh.node_sets.erase(set);
     return deck_.mesh.node_sets.count(set) > 0;
   }
 
-  // a name that no set of the whole body has
+  // A name that no set of the whole body has.
   std::string free_name(std::string name) const {
     while (header_.mesh.node_sets.count(name)) name += "_";
     return name;
   }
 
-  void hold_and_move() {
+  // Components with an imposed displacement, of supports and of moved sets that are in the
+  // written part.
+  void add_supports_and_loads() {
     for (const SupportConfig& support : config_.supports)
       for (Axis axis : support.hold)
-        if (name_set(support.on)) deck_.held.push_back({support.on, static_cast<int>(axis), {}});
+        if (add_set(support.on)) deck_.held.push_back({support.on, static_cast<int>(axis), {}});
     for (const LoadConfig& load : config_.loads)
-      for (int k = 0; k < 3; ++k)
-        if (const auto to = load.imposed(k); to && name_set(load.on))
+      for (int k = 0; k < 3; ++k) {
+        const auto to = load.imposed(k);
+        if (to && add_set(load.on))
           deck_.held.push_back({load.on, k, history_of(*to, config_.path.seconds)});
+      }
   }
 
-  void hold_mirror_planes() {
+  // Nodes on a mirror plane do not move across it. The dofs of the reduced scene show which they
+  // are.
+  void add_mirror_planes() {
     for (int k = 0; part_ && k < 3; ++k) {
       std::vector<int> plane;
       for (int n = 0; n < deck_.mesh.n_nodes(); ++n)
@@ -293,29 +320,34 @@ class DeckComposer {
     }
   }
 
+  // A sphere and the surface that it may touch. Its direction to the body is that to the mean of
+  // the candidates.
   void add_contact(std::size_t c) {
     const RigidContact& law = scene().contacts[c];
     const Ball sphere = *ball_of(law.shape);
     const Vec3 to = plain(indenter_displacement(law, 1));
-    deck_.words.push_back(fmt::format(
-        "sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, {:g}, {:g}), friction {:g}",
-        law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2], to[0], to[1],
-        to[2], law.mu));
+    deck_.words.push_back(
+        fmt::format("sphere \"{}\": radius {:g}, centre ({:g}, {:g}, {:g}), ends moved by ({:g}, "
+                    "{:g}, {:g}), friction {:g}",
+                    law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2],
+                    to[0], to[1], to[2], law.mu));
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
     for (int n : whole_.contacts[c].nodes)
       middle += header_.mesh.X[n] / static_cast<double>(whole_.contacts[c].nodes.size());
     std::string set = config_.contacts.at(law.name).on;
-    if (set.empty()) {  // what the indenter can reach
+    if (set.empty()) {
+      // The candidates are the nodes that the indenter can reach.
       set = free_name("contact_" + law.name);
       deck_.mesh.node_sets[set] = law.nodes;
     } else {
-      name_set(set);
+      add_set(set);
     }
     deck_.contacts.push_back(
         contact_of(deck_.mesh, law, set, (middle - sphere.centre).normalized(), path_));
   }
 
-  void take_increments() {
+  // The increments of the config; every kink of the path is a stop.
+  void set_increments() {
     const LoadPathOptions& increments = config_.path;
     deck_.first = increments.first_increment();
     deck_.largest = increments.largest_increment();
@@ -325,20 +357,22 @@ class DeckComposer {
     deck_.stops.assign(stops.begin(), stops.end());
   }
 
-  void say_the_rest() {
-    deck_.words.push_back(fmt::format("{} cells {}, {} nodes", deck_.mesh.n_cells(),
+  // Comment lines on the mesh, the symmetry and the results.
+  void add_remarks() {
+    deck_.words.push_back(fmt::format("{} elements {}, {} nodes", deck_.mesh.n_cells(),
                                       names(deck_.mesh.type)[static_cast<int>(deck_.mesh.type)],
                                       deck_.mesh.n_nodes()));
     if (header_.formulation == "displacement")
       deck_.words.push_back(
-          "solved with formulation: displacement, which locks near incompressibility: cells here do not");
+          "solved with formulation: displacement, which locks near incompressibility: the elements "
+          "here do not");
     if (part_)
       deck_.words.push_back(
           fmt::format("{}: forces here are 1/{:g} of the body's", part_->words(), deck_.share));
     if (found_ && !part_)
-      deck_.words.push_back(
-          "solved by symmetry (" + found_->words() +
-          "), which mirror planes between cells with one indenter on them cannot express: the whole body");
+      deck_.words.push_back("solved by symmetry (" + found_->words() +
+                            "), which mirror planes between elements with one indenter on them "
+                            "cannot express: the whole body");
     for (const std::string& line : answers(solution_, config_)) deck_.words.push_back(line);
   }
 
@@ -350,31 +384,31 @@ class DeckComposer {
   const std::optional<ReducedScene> found_;
   const ReducedScene* part_;  // nullptr: the whole body is written
   Deck deck_;
-  std::map<Spot, int> number_;  // of the places in what is written
+  std::map<Spot, int> number_;  // of the nodes of the written part, by position
 };
 
 }  // namespace
 
+// Refuses scenes that no program can express before it composes the deck.
 Deck deck_of(const SolutionReader& solution, const std::string& path) {
   const SolutionHeader& header = solution.header();
   if (header.mesh.section)
-    refuse(
-        path, "", "a section",
-        "the same scene on a body in three dimensions: of its quarter, where symmetry: auto finds mirror planes");
+    refuse(path, "", "a section",
+           "the same scene on a body in three dimensions; with symmetry: auto a quarter of it is "
+           "enough");
   if (!header.mesh.hanging.empty())
-    refuse(path, "", "cells that are cut beside larger ones",
+    refuse(path, "", "locally refined elements with hanging nodes",
            "the same scene on a mesh without `cuts`: the decks have no ties");
   for (const Material& law : header.laws())
     if (is_viscous(law))
-      refuse(
-          path, "", "a viscous material, whose scene goes through time",
-          "the same scene without viscous and spectrum: the law that is left after all has relaxed");
+      refuse(path, "", "a viscous material, whose scene depends on time",
+             "the same scene without viscous and spectrum: the material after complete relaxation");
   const SolveConfig config = config_of(header, path);
   if (!header.mesh.cell().names.febio)
     refuse(path, "",
-           fmt::format("cells {}",
+           fmt::format("elements {}",
                        names(header.mesh.type)[static_cast<std::size_t>(header.mesh.type)]),
-           "the same body with hex8: CalculiX has no such cell, FEBio's was not tried");
+           "the same body with hex8: CalculiX has no such element, that of FEBio was not tested");
   return DeckComposer(solution, config, path).deck();
 }
 

@@ -5,26 +5,39 @@
 
 namespace langer {
 
+namespace {
+
+// A vector across e1: of the first family that is not parallel to e1, otherwise of the axis that is
+// most perpendicular to it.
+Vec3 across(const Vec3& e1, const std::vector<Vec3>& fibres) {
+  for (const Vec3& a : fibres) {
+    const Vec3 rest = a - a.dot(e1) * e1;
+    if (rest.norm() > 1e-6) return rest;
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(e1[k]) < std::abs(e1[axis])) axis = k;
+  return Vec3::Unit(axis) - e1[axis] * e1;
+}
+
+// Components that are rounding errors become 0.
+double without_rounding(double x) {
+  if (std::abs(x) < 1e-14) return 0;
+  return x;
+}
+
+}  // namespace
+
+// Programs that read the third axis as e1 x e2 get a right-handed frame.
 FibreFrame fibre_frame(const std::vector<Vec3>& fibres) {
   FibreFrame frame;
   frame.e1 = fibres[0];
-  Vec3 other = Vec3::Zero();
-  for (const Vec3& a : fibres)
-    if (const Vec3 rest = a - a.dot(frame.e1) * frame.e1; rest.norm() > 1e-6 && other.isZero())
-      other = rest;
-  if (other.isZero()) {
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(frame.e1[k]) < std::abs(frame.e1[axis])) axis = k;
-    other = Vec3::Unit(axis) - frame.e1[axis] * frame.e1;
-  }
-  frame.e2 = other.normalized();
+  frame.e2 = across(frame.e1, fibres).normalized();
   const Vec3 e3 = frame.e1.cross(frame.e2);
-  const auto plain = [](double x) {
-    return std::abs(x) < 1e-14 ? 0 : x;
-  };
-  for (const Vec3& a : fibres)
-    frame.in_frame.push_back(Vec3(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3)).unaryExpr(plain));
+  for (const Vec3& a : fibres) {
+    const Vec3 components(a.dot(frame.e1), a.dot(frame.e2), a.dot(e3));
+    frame.in_frame.push_back(components.unaryExpr(&without_rounding));
+  }
   return frame;
 }
 

@@ -1,5 +1,6 @@
-// Directions of fibre families in a frame of their own: the first family is the first axis, the
-// second lies in the plane of the first two.
+// The directions of fibre families in a frame of their own: the first axis is the first family, and
+// the second family is in the plane of the first two axes. Several programs take directions only in
+// such a frame.
 #pragma once
 
 #include <vector>

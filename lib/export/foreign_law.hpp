@@ -1,4 +1,4 @@
-// A law in the words of another program.
+// A material model in the input language of another program.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 namespace langer {
 
 struct ForeignLaw {
-  std::string text;            // empty where the program lacks the law
-  std::string lacks, nearest;  // what it lacks, and what could be written instead
+  std::string text;     // empty if the program lacks the model
+  std::string lacks;    // the part that it lacks
+  std::string nearest;  // the closest alternative
 };
 
-// the text, or Failure(config) for what the program lacks
-inline std::string held_by(const std::string& program, const ForeignLaw& law) {
+// The text. Throws Failure(config) if the program lacks the model.
+inline std::string require_text(const std::string& program, const ForeignLaw& law) {
   if (law.text.empty())
     throw Failure(Exit::config,
                   Error{{program}, "material", "it lacks " + law.lacks, law.nearest, ""});

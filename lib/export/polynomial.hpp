@@ -1,4 +1,4 @@
-// A matrix that is a polynomial of the invariants, its terms added up:
+// A matrix material that is a polynomial of the invariants, with all its terms added up:
 //   W = sum I1[i-1] (I1_bar - 3)^i + sum I2[i-1] (I2_bar - 3)^i,  i = 1, 2, 3;  coefficients in MPa
 #pragma once
 
@@ -13,10 +13,11 @@ namespace langer {
 struct Polynomial {
   double I1[3] = {}, I2[3] = {};
 
-  bool add(const MatrixTerm& term) {  // false: no polynomial
-    if (const auto* t = std::get_if<NeoHooke>(&term))
+  // Adds a term; false if it is not a polynomial.
+  bool add(const MatrixTerm& term) {
+    if (const auto* t = std::get_if<NeoHooke>(&term)) {
       I1[0] += t->a1;
-    else if (const auto* t = std::get_if<Yeoh>(&term)) {
+    } else if (const auto* t = std::get_if<Yeoh>(&term)) {
       I1[0] += t->a1;
       I1[1] += t->a2;
       I1[2] += t->a3;
@@ -31,8 +32,9 @@ struct Polynomial {
       I1[0] += t->c10;
       I1[1] += t->c20;
       I2[0] += t->c01;
-    } else
+    } else {
       return false;
+    }
     return true;
   }
   bool of_I1() const { return I2[0] == 0 && I2[1] == 0 && I2[2] == 0; }
@@ -40,6 +42,7 @@ struct Polynomial {
   bool neo_hookean() const { return of_I1() && linear(); }
 };
 
+// The matrix as a polynomial; nothing if one of its terms is not.
 inline std::optional<Polynomial> polynomial(const Material& material) {
   Polynomial p;
   for (const MatrixTerm& term : material.matrix)
@@ -47,11 +50,11 @@ inline std::optional<Polynomial> polynomial(const Material& material) {
   return p;
 }
 
-// names of its terms
+// The names of its terms.
 inline std::string matrix_words(const Material& material) {
   std::string words;
   for (const MatrixTerm& term : material.matrix)
-    append(words, " + ", std::visit([](const auto& t) { return std::string(t.key); }, term));
+    append(words, " + ", std::visit([](const auto& t) -> std::string { return t.key; }, term));
   return words;
 }
 

@@ -7,18 +7,31 @@
 
 namespace langer {
 
-RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+namespace {
+
+// Components that are rounding errors become 0.
+double without_rounding(double x) {
+  if (std::abs(x) < 1e-12) return 0;
+  return x;
+}
+
+}  // namespace
+
+RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side) {
   const Vec3 centre = sphere.centre;
   const double R = sphere.radius;
   const double degree = std::numbers::pi / 180;
+  // (e1, e2) span the plane across `towards`. e1 is close to the axis most perpendicular to it.
   int axis = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(towards[k]) < std::abs(towards[axis])) axis = k;
   const Vec3 e1 = (Vec3::Unit(axis) - towards[axis] * towards).normalized();
   const Vec3 e2 = towards.cross(e1);
 
-  Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+  // The rectangle of the places in this plane, and the polar angle of the rim around them.
+  Eigen::Vector2d low(1e300, 1e300);
+  Eigen::Vector2d high(-1e300, -1e300);
   double farthest = 0;
   for (const Vec3& x : places) {
     const Eigen::Vector2d p((x - centre).dot(e1), (x - centre).dot(e2));
@@ -27,11 +40,11 @@ RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Ve
     farthest = std::max(farthest, p.norm());
   }
   const double margin = 0.1 * R + side;
-  const double rim =
-      std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);  // polar angle
+  const double rim = std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);
   const int n = std::max(6, static_cast<int>(std::ceil(rim * R / side)));
 
-  // a square grid that turns into circles towards the rim
+  // A square grid whose lines become circles towards the rim. r is 0 at the pole and 1 at the
+  // rim.
   RigidCap cap;
   cap.side = rim * R / n;
   const double raised = R + cap.side * cap.side / (6 * R);
@@ -50,12 +63,14 @@ RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Ve
       const Eigen::Vector2d d = q.normalized();
       direction.push_back(std::cos(polar) * towards + std::sin(polar) * (d[0] * e1 + d[1] * e2));
     }
+  // Only facets close to the rectangle are kept. Their points are numbered in order of first use.
   std::vector<int> number(direction.size(), -1);
   for (int j = 0; j < 2 * n; ++j)
     for (int i = 0; i < 2 * n; ++i) {
       const int at = j * row + i;
       std::array<int, 4> corners{at, at + 1, at + row + 1, at + row};
-      Eigen::Vector2d least(1e300, 1e300), most(-1e300, -1e300);
+      Eigen::Vector2d least(1e300, 1e300);
+      Eigen::Vector2d most(-1e300, -1e300);
       for (int c : corners) {
         const Eigen::Vector2d p(R * direction[c].dot(e1), R * direction[c].dot(e2));
         least = least.cwiseMin(p);
@@ -67,8 +82,7 @@ RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Ve
       for (int& c : corners) {
         if (number[c] < 0) {
           number[c] = static_cast<int>(cap.outer.size());
-          const Vec3 d =
-              direction[c].unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0 : x; });
+          const Vec3 d = direction[c].unaryExpr(&without_rounding);
           cap.outer.push_back(centre + raised * d);
           cap.inner.push_back(centre + 0.8 * R * d);
         }

@@ -1,7 +1,8 @@
-// The part of a rigid sphere that may touch, as facets, for programs that know no exact sphere.
-//   outer  corners of the facets; they lie by the mean sag s^2 / (6 R) of a facet of side s outside the sphere, so that facets
-//          and sphere enclose the same volume
-//   inner  one for each outer point, nearer the centre: between them lie hexahedra that carry the facets
+// The part of a rigid sphere that may touch the body, as facets, for programs without an exact
+// sphere.
+//   outer  corners of the facets, outside the sphere by the mean sag s^2 / (6 R) of a facet with
+//          side s, so that facets and sphere enclose the same volume
+//   inner  one for each outer point, closer to the centre: hexahedra between them carry the facets
 #pragma once
 
 #include <array>
@@ -14,14 +15,14 @@ namespace langer {
 
 struct RigidCap {
   std::vector<Vec3> outer, inner;  // [mm], before the indenter moves
-  std::vector<std::array<int, 4>>
-      facets;       // of outer points, counter-clockwise seen from outside the sphere
+  // Corners are numbers of outer points, counter-clockwise seen from outside the sphere.
+  std::vector<std::array<int, 4>> facets;
   double side = 0;  // mean side of a facet [mm]
 };
 
-// towards: unit vector from the centre to the body. places: where, seen from the indenter's start,
-// nodes may touch it [mm].
-RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+// `towards` is the unit vector from the centre to the body. `places` are the positions of nodes
+// that may touch the sphere, relative to its start [mm].
+RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side);
 
 }  // namespace langer
