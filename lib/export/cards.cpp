@@ -305,6 +305,8 @@ void add_branches(const Material& m, const std::vector<ViscousBranch>& branches,
     for (const ViscousBranch& b : branches)
       abaqus.text += fmt::format("{}, 0, {}\n", number(b.gamma / amplified), number(b.tau));
   }
+  // ANSYS starts from the instantaneous modulus, which is that of the relaxed material and of all
+  // branches.
   ansys = langer::ansys(instantaneous(m, amplified));
   if (!ansys.exists) return;
   ansys.text +=
@@ -323,6 +325,7 @@ std::vector<Card> viscous_cards(const Material& m) {
   law.viscous.reset();
   law.spectrum.reset();
   std::vector<Card> all{abaqus(law), ansys(law), febio(law), calculix(law)};
+  // The branches in words, for the note of FEBio.
   std::string pairs;
   for (std::size_t i = 0; i < branches.size(); ++i)
     pairs += fmt::format(" t{} = {} s, g{} = {};", i + 1, number(branches[i].tau), i + 1,

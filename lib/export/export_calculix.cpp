@@ -130,6 +130,7 @@ class CalculixWriter {
     s_ += "*NODE, NSET=BODY\n";
     for (int n = 0; n < mesh_.n_nodes(); ++n)
       if (used[n]) node(n + 1, mesh_.X[n]);
+    // Nodes and elements of the spheres are numbered after those of the body.
     next_node_ = mesh_.n_nodes() + 1;
     next_cell_ = mesh_.n_cells() + 1;
     laws();
@@ -139,6 +140,7 @@ class CalculixWriter {
         if (used[n]) numbers.push_back(n + 1);
       s_ += fmt::format("*NSET, NSET={}\n{}", checked_name(name), list(numbers));
     }
+    // Supports hold in all steps, so they are in front of the first one.
     std::string held;
     for (const HeldSet& h : deck_.held)
       if (h.to.value == 0)
@@ -201,6 +203,7 @@ class CalculixWriter {
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
     for (const Facet& f : c.facets)
       s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
+    // The layer of hexahedra between the inner and the outer points of the cap.
     const int n = static_cast<int>(c.cap.outer.size());
     const int first = next_node_;
     const int first_cell = next_cell_;
@@ -218,6 +221,8 @@ class CalculixWriter {
     next_node_ += 2 * n;
     s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", master);
     for (int e = first_cell; e < next_cell_; ++e) s_ += fmt::format("{}, S2\n", e);
+    // The material of the layer is not stressed, because all its nodes are moved. The penalty is
+    // relative to the softest material of the body.
     double mu = 1e300;
     for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
     s_ += fmt::format(
@@ -251,6 +256,7 @@ class CalculixWriter {
       s_ += fmt::format("*STEP, NLGEOM, INC=100000\n*STATIC\n{:.6g}, {:.6g}, {:.6g}, {:.6g}\n",
                         std::min({deck_.first, takes, most}), takes,
                         std::min(deck_.smallest, takes), std::min({deck_.largest, takes, most}));
+      // Positions at the end of the step, and the results that are printed.
       std::string moved, asked;
       for (const HeldSet& h : deck_.held) {
         if (h.to.value != 0)

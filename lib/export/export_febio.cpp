@@ -177,6 +177,7 @@ class FebioWriter {
   void loads() {
     std::map<std::string, std::array<int, 3>> fixed;
     std::set<std::string> asked;
+    // Components with the value 0 are collected: FEBio has one condition for all axes of a set.
     int moved = 0;
     for (const HeldSet& h : deck_.held) {
       if (h.to.value == 0) {
@@ -238,6 +239,7 @@ class FebioWriter {
   // Elements between the two layers of the cap of an indenter; returns the facets of the outer
   // layer.
   std::string rigid_cells(const DeckContact& c, const std::string& name) {
+    // Inner points first, then outer points.
     const int n = static_cast<int>(c.cap.outer.size());
     const int first = next_node_;
     nodes_ += fmt::format("    <Nodes name=\"{}\">\n", name);

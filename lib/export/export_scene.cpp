@@ -101,6 +101,7 @@ const ReducedScene* exportable(const std::optional<ReducedScene>& part) {
     return !(std::abs(s - share[0]) > 1e-12);
   };
   if (!std::ranges::all_of(share, same_share)) return nullptr;
+  // Half turns tie nodes to each other instead of to a plane. No deck can express that.
   const auto& tie = part->scene().dofs.tie;
   for (std::size_t i = 0; i < tie.size(); ++i)
     if (tie[i].of != static_cast<int>(i)) return nullptr;
@@ -116,6 +117,7 @@ std::vector<FibreGroup> groups_of(const Mesh& mesh, const Scene& scene) {
     if (!mesh.body.empty()) body = mesh.body[e];
     const Material& law = scene.materials[body];
     const std::vector<Vec3> fibres = acting(law, scene.directions.of(e));
+    // Directions that agree to nine digits are the same.
     std::pair<int, std::vector<long long>> key{body, {}};
     for (const Vec3& a : fibres)
       for (int k = 0; k < 3; ++k) key.second.push_back(std::llround(1e9 * a[k]));
@@ -170,6 +172,7 @@ DeckContact contact_of(const Mesh& mesh, const RigidContact& law, const std::str
   if (contact.facets.empty())
     refuse(path, "contacts." + law.name + ".on", "no facet with all corners in " + set,
            "a set that covers facets");
+  // Where each candidate is relative to the sphere at the waypoints of its path.
   std::vector<Vec3> places;
   for (int n : law.nodes) {
     places.push_back(mesh.X[n]);
@@ -331,6 +334,8 @@ class DeckComposer {
                     "{:g}, {:g}), friction {:g}",
                     law.name, sphere.radius, sphere.centre[0], sphere.centre[1], sphere.centre[2],
                     to[0], to[1], to[2], law.mu));
+    // The mean of the candidates of the whole body, because a part may have those on one side
+    // only.
     Vec3 middle = Vec3::Zero();  // of the whole body's candidates
     for (int n : whole_.contacts[c].nodes)
       middle += header_.mesh.X[n] / static_cast<double>(whole_.contacts[c].nodes.size());

@@ -53,6 +53,7 @@ struct Matrix {
     if (sum.I2[1] != 0 || sum.I2[2] != 0)
       lacking.push_back({"squares and cubes of (I2_bar - 3)", "yeoh_I2 with b1 alone"});
     const bool yeoh = sum.I1[1] != 0 || sum.I1[2] != 0;
+    // Yeoh has no I2, and a mixture needs at least one solid.
     const bool mooney = !yeoh || sum.I2[0] != 0;
     if (mooney && (sum.I1[0] != 0 || sum.I2[0] != 0 || solids.empty()))
       solids.push_back({"Mooney-Rivlin", tag("c1", sum.I1[0]) + tag("c2", sum.I2[0])});
@@ -202,6 +203,7 @@ ForeignLaw febio_material(const Material& material, const std::vector<Vec3>& dir
   if (const std::string goh = dispersed(m, fibres); !goh.empty())
     return {whole("Holzapfel-Gasser-Ogden", "  " + goh + "\n"), "", ""};
 
+  // A mixture of the solids of the matrix and of the fibres.
   std::string body;
   std::vector<Solid> solids = matrix.solids;
   if (!m.fibres.empty()) {

@@ -41,6 +41,7 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
   }
   const double margin = 0.1 * R + side;
   const double rim = std::min(75 * degree, std::asin(std::min(0.99, farthest / R)) + 10 * degree);
+  // At least six facets from the pole to the rim, so that the cap is round.
   const int n = std::max(6, static_cast<int>(std::ceil(rim * R / side)));
 
   // A square grid whose lines become circles towards the rim. r is 0 at the pole and 1 at the
@@ -59,6 +60,8 @@ RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<
         direction.push_back(towards);
         continue;
       }
+      // |q| keeps the grid square, r makes its lines circles. The weight of r grows from the pole
+      // to the rim.
       const double polar = rim * q.norm() * (1 - round + round * r / q.norm());
       const Eigen::Vector2d d = q.normalized();
       direction.push_back(std::cos(polar) * towards + std::sin(polar) * (d[0] * e1 + d[1] * e2));

@@ -189,6 +189,7 @@ struct GnuplotWriter {
   void operator()(const Label& label) {
     constexpr const char* anchors[] = {"left", "center", "right"};
     const Label t = printed(label, sign);
+    // The middle of the letters is about 0.35 of their size above the base line.
     const double up = 0.35 * t.size;
     const double turned = t.turned * std::numbers::pi / 180;
     labels += fmt::format("set label {} at {:.2f},{:.2f} {} ", gnuplot_string(t.text),
@@ -333,6 +334,7 @@ std::vector<double> ticks(double low, double high, int wished) {
 }
 
 std::vector<std::string> tick_texts(const std::vector<double>& at) {
+  // The number of decimals follows from the step; small steps are written with an exponent.
   double step = 1;
   if (at.size() > 1) step = at[1] - at[0];
   const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));

@@ -79,6 +79,7 @@ void add_scale(Drawing& d, const Panel& p, const FieldPanel& panel) {
   for (int k = 0; k < cells; ++k)
     d.marks.push_back(box(x, p.top + height - step * (k + 1), 14, step,
                           signed_colour(2 * (k + 0.5) / cells - 1)));
+  // Numbers at the right of the scale.
   const std::vector<double> at = ticks(-panel.limit, panel.limit, 6);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k)

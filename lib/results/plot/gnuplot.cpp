@@ -178,6 +178,7 @@ std::string frame_commands(const Plot& plot, const FigureStyle& style) {
         mark.y, printed(with_decimal(mark.text, style.decimal)), small_size(style));
   if (plot.notes.empty()) return s;
   s += "set rmargin at screen 0.66\n";
+  // Notes are placed below each other at the right; many notes get less distance.
   const double step = std::min(0.052, 0.84 / static_cast<double>(plot.notes.size()));
   for (std::size_t i = 0; i < plot.notes.size(); ++i)
     s += fmt::format(
@@ -339,6 +340,7 @@ std::string wait_for_gnuplot(const std::string& folder, const std::string& scrip
   posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
 
+  // gnuplot -e "into = '<folder>/'" ./<script>
   std::string program = "gnuplot";
   std::string execute = "-e";
   std::string place = fmt::format("into = '{}/'", into);
@@ -351,6 +353,7 @@ std::string wait_for_gnuplot(const std::string& folder, const std::string& scrip
   if (error == ENOENT) return "there is no gnuplot on the PATH";
   if (error) return fmt::format("gnuplot cannot be started: {}", std::strerror(error));
 
+  // Wait for its end, but not longer than the time limit.
   int status = 0;
   pid_t ended = 0;
   const auto deadline = std::chrono::steady_clock::now() + time_limit;

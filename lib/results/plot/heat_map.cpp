@@ -117,6 +117,7 @@ void add_numbers(Drawing& d, const Grid& g) {
       const std::string text = cell_text(g.map, value, g.w);
       Label number = label(g.x_of(j) + g.w / 2, g.y_of(i) + g.h / 2 + 0.32 * size, text, size);
       const Colour ground = g.colour(value);
+      // Numbers are white on cells with a luminance below 0.4.
       number.white = 0.21 * ground.r + 0.72 * ground.g + 0.07 * ground.b < 0.4;  // luminance
       d.marks.push_back(number);
     }
@@ -224,6 +225,7 @@ void add_scale(Drawing& d, const Grid& g) {
   const double to = g.scale_position(high);
   const double x = g.left + g.width + 30;
   const double cells = 40;
+  // The scale has at least 90 units of height, also next to a map of one row.
   const double tall = std::max(g.height, 90.0);
   const double step = tall / cells;
   const double foot = std::max(g.bottom(), g.top + tall);
@@ -344,12 +346,14 @@ Drawing bars(const Bars& b, const Look& look) {
     d.marks.push_back(label(d.width / 2, 28, b.title,
                             std::min(16.0, 1.6 * d.width / static_cast<double>(b.title.size()))));
   d.marks.push_back(label(14, top - 12, b.y_label, 13, Label::Anchor::start));
+  // Horizontal lines at round values, with their numbers at the left.
   const std::vector<double> at = ticks(0, most);
   const std::vector<std::string> texts = tick_texts(at);
   for (std::size_t k = 0; k < at.size(); ++k) {
     d.marks.push_back(Stroke{{{left, y_of(at[k])}, {left + width, y_of(at[k])}}, pale, 1, 1});
     d.marks.push_back(label(left - 8, y_of(at[k]) + 4, texts[k], 13, Label::Anchor::end));
   }
+  // A group of bars takes 0.8 of its share of the width, so that groups are separated.
   const auto n = b.values.rows();
   const double group = width / static_cast<double>(b.values.cols());
   const double bar = 0.8 * group / static_cast<double>(n);

@@ -71,6 +71,8 @@ struct Scale {
     } else {
       middle = 0.5 * (levels[band - 1] + levels[band]);
     }
+    // A scale without sign covers all bands, also the two outside the levels. A signed scale is
+    // symmetric about 0, so that its white is 0.
     if (!is_signed)
       return scale_colour(
           (middle - levels.front() + step) / (levels.back() - levels.front() + 2 * step), colours);
@@ -151,6 +153,7 @@ Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const
     high += 0.5;
   }
   Scale scale;
+  // The levels are round numbers within the range.
   scale.levels = ticks(low, high, wished_bands);
   const double step = scale.levels[1] - scale.levels[0];
   if (!style.range) {
@@ -171,6 +174,7 @@ Scale scale_of(const std::vector<MapPanel>& panels, const MapStyle& style, const
 // Paints one panel: its field, the edges of elements, fibres, named points and the frame.
 class Painter {
  public:
+  // The panel begins at `left` and `top` on the page.
   Painter(Drawing& drawing, const Window& window, const Scale& scale, double left, double top,
           double pt_per_mm)
       : drawing_(drawing),
@@ -373,6 +377,7 @@ void add_colour_bar(Drawing& drawing, const Scale& scale, const std::string& lab
                                   scale.colour(static_cast<int>(i) + 1),
                                   0.4});
   }
+  // The outline of the bar, with the tips at its ends.
   std::vector<PagePoint> outline{{x, top}};
   if (scale.beyond) {
     const std::vector<PagePoint> corners{{x, top}, {x + width / 2, top - tip}, {x + width, top}};
@@ -430,6 +435,7 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
   Scale scale = scale_of(panels, style, window);
   scale.colours = look.colours;
   scale.signed_colours = look.signed_colours;
+  // Panels are placed in rows of at most `columns`.
   const int n = static_cast<int>(panels.size());
   columns = std::clamp(columns, 1, n);
   const int rows = (n + columns - 1) / columns;
@@ -441,6 +447,7 @@ Drawing map_drawing(const std::vector<MapPanel>& panels, const MapStyle& style, 
   if (look.width) {
     width = std::max(60.0, (*look.width - left_room - bar_room - (columns - 1) * gap) / columns);
   }
+  // Both axes have the same scale [units of the page per mm].
   const double k = width / (window.x_high - window.x_low);
   const double height = k * (window.z_high - window.z_low);
   double panel_title = 8;

@@ -256,6 +256,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                  did_you_mean(m.history, available.histories));
     } else {
       const QuantityLine& line = line_of(*c.quantity);
+      // What the solution must have for this quantity.
       if (line.needs.contact && !available.contact)
         complain("quantity", fmt::format("{} of a solution without contact", line.word),
                  "a quantity that needs no indenter", "");
@@ -267,6 +268,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
           !contains(available.histories, line.needs.history))
         complain("quantity", fmt::format("the solution has no history \"{}\"", line.needs.history),
                  "one of " + list_of(available.histories), "");
+      // The nodes of the place, and its facets if the quantity needs them.
       if (c.at && needs_place(line)) {
         const auto set = body.mesh().node_sets.find(*c.at);
         if (set == body.mesh().node_sets.end() || set->second.empty())
@@ -279,6 +281,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
           complain("at", fmt::format("found \"{}\", a set without facets", *c.at),
                    "a set that covers facets", "");
       }
+      // Fibre families are counted from 1 in configs.
       m.family = c.family - 1;
       if (is<OfPoint>(line) && line.needs.fibres && c.family > body.n_families())
         complain("family",
@@ -287,6 +290,7 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
       if (is<OfBody>(line) && line.needs.fibres && body.n_families() == 0)
         complain("quantity", fmt::format("{} of a material without fibres", line.word),
                  "another quantity", "");
+      // The reference length of a strain.
       if (line.needs.extent >= 0) {
         m.length = extent(body.mesh(), line.needs.extent);
         if (c.length) m.length = *c.length;

@@ -76,6 +76,7 @@ EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
 void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
                              std::vector<Vec3>& rates) {
   const RigidContact& contact = contacts_[k];
+  // The movement of the indenter in the increment.
   const Vec3 c0 = indenter_displacement(contact, last_.t);
   const Vec3 c = indenter_displacement(contact, now.t);
   const Vec3 dc = c - c0;
@@ -111,6 +112,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     from_contact.end[node] += r1;
     step.begin += r0.dot(worked);
     step.end += r1.dot(worked);
+    // Bonds are forces on the body like the reactions.
     for (const auto& [state, from, power] :
          {std::tuple{&std::as_const(last_), &from_contact.begin, &step.begin},
           {&now, &from_contact.end, &step.end}})
@@ -135,6 +137,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
       const Vec3 n = shape_at(contact.shape, x).normal;
       step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
     }
+    // Slip counts only with contact at both ends.
     if (r0.isZero(0) || r1.isZero(0)) continue;
     const Vec3 n = shape_at(contact.shape, Vec3(mesh_.X[node] + now.u[node] - c)).normal;
     slips_[k][i] += (v - v.dot(n) * n).norm();
@@ -231,6 +234,7 @@ std::vector<PathSums> EnergyPath::sums() const {
       ++neighbours;
     }
     if (neighbours > 0) curvature /= neighbours;
+    // The sums of the state at the end of the interval.
     PathSums& sum = all[k + 1];
     sum.path = all[k].path + here.way;
     sum.work = all[k].work + 0.5 * here.dt * (here.begin + here.end) -

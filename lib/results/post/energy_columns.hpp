@@ -73,6 +73,7 @@ class EnergyPath {
   struct Ends {
     std::vector<Vec3> begin, end;  // (n)
   };
+  // The part of one contact in the interval that ends with `now`.
   void add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
                    std::vector<Vec3>& rates);
   // The movement in the interval, extrapolated from the rates at its two ends [mm].

@@ -76,6 +76,7 @@ std::vector<Complaint> complaints(const FigureChoice& figure,
          fmt::format("{} legends for {} columns", figure.legends.size(), figure.y.size()),
          "one for each y", ""});
   if (!found.empty()) return found;
+  // All columns of an axis must have one unit.
   const std::string first = unit_of(*find(columns, figure.y[0]));
   for (std::size_t i = 1; i < figure.y.size(); ++i)
     if (const std::string unit = unit_of(*find(columns, figure.y[i])); unit != first)

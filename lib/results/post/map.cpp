@@ -101,6 +101,7 @@ std::optional<PlanePoint> within(const std::array<PlanePoint, 4>& corner, const 
         fp[i] += Np[k] * corner[k][i];
         fq[i] += Nq[k] * corner[k][i];
       }
+    // One Newton step by Cramer's rule. A degenerate quadrilateral has no bilinear coordinates.
     const double det = fp[0] * fq[1] - fp[1] * fq[0];
     if (det == 0) return {};
     const double dp = (f[0] * fq[1] - f[1] * fq[0]) / det;

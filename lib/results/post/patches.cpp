@@ -97,6 +97,7 @@ void Patches::find_patches() {
       if (patches_[p].cells.empty() || patches_[p].cells.back() != e)
         patches_[p].cells.push_back(e);
     }
+  // The size scales the coordinates of the polynomial to about 1.
   for (Patch& patch : patches_)
     for (int e : patch.cells)
       for (int n : mesh.cell(e))
@@ -240,6 +241,7 @@ Patches::Smooth Patches::fit_nodal_fields(const MatX& values) const {
   const int front = n_front_nodes();
   std::vector<MatX> fitted;
   for (const Patch& patch : patches_) {
+    // The nodes of all elements of the patch, each once.
     std::set<int> nodes;
     for (int e : patch.cells)
       for (int n : mesh.cell(e)) nodes.insert(n % front);
@@ -266,6 +268,7 @@ Patches::Smooth Patches::fit_gauss_fields(const std::vector<MatX>& values) const
   std::vector<MatX> fitted;
   for (const Patch& patch : patches_) {
     const Eigen::Index points = values[0].rows();
+    // One row for each Gauss point of the elements of the patch.
     const auto n = static_cast<Eigen::Index>(patch.cells.size()) * points;
     MatX A(n, static_cast<Eigen::Index>(powers_of_points_.size()));
     MatX b(n, values[0].cols());

@@ -63,10 +63,13 @@ class Patches {
   int patch_at(int e, int corner) const {
     return patch_of_[static_cast<std::size_t>(e * n_corners_ + corner)];
   }
+  // The monomials of a patch at a place, or their gradients.
   MatX terms(const Patch& patch, const Vec3& X, bool gradient) const;  // (monomials, 1 or 3)
+  // The field of a patch at a place.
   MatX at(const std::vector<MatX>& fitted, const Patch& patch, const Vec3& X, bool gradient) const;
   int n_front_nodes() const;
   Smooth smooth_field(std::vector<MatX> fitted, bool gradient) const;
+  // The field at a Gauss point, from those of the corners of its element.
   MatX blended(const std::vector<MatX>& fitted, int e, int g, bool gradient) const;
   void find_patches();
   void find_inside();

@@ -120,6 +120,7 @@ RecoveredError recovered_error(const Body& body, const std::vector<Vec3>& u) {
   for (int region = 0; region < n_regions(body); ++region) {
     const std::vector<Vec6> smooth = smoothed(body, gauss, region);
     add_region(energies, body, gauss, smooth, region, &out.of_cell);
+    // The node of the greatest von Mises stress so far, if this region has it.
     int worst = -1;
     for (int e = 0; e < mesh.n_cells(); ++e) {
       if (body.region(e) != region) continue;

@@ -370,6 +370,7 @@ void paint_body(const RenderScene& scene, const Seen& seen, const Page& page, Co
       static_cast<int>(std::sqrt(most_patches / std::max<double>(1, seen.quads.size()))), 1, 6);
   for (const Seen::Quad& quad : seen.quads) {
     Item item{mean_depth(quad.corners), {}};
+    // A quad has one shade; the field varies bilinearly within it.
     const double s = shade(normal_of(quad.corners));
     const auto weights = [](double p, double q) {
       return std::array{(1 - p) * (1 - q), p * (1 - q), p * q, (1 - p) * q};
@@ -465,6 +466,7 @@ Drawing render(const RenderScene& scene, const RenderChoice& choice, const Look&
   page.left = margin + room / 2 - page.scale * middle[0];
   page.top = title_room + (drawing.height - title_room) / 2 + page.scale * middle[1];
 
+  // Body and indenters hide each other, so they are sorted by depth together.
   std::vector<Item> items;
   paint_body(scene, seen, page, look.colours, items);
   for (const OpenedOutline& indenter : seen.indenters) paint_indenter(indenter, page, items);

@@ -128,8 +128,9 @@ SurfaceMap read_map(const h5::Group& group, const std::string& name) {
                  {},
                  {},
                  {}};
-  require_known_unit(group, "values");
-  for (const char* name : {"places", "points"}) require_unit(group, name, "mm");
+  // Units, places, and facets whose nodes exist.
+  need_known_unit(group, "values");
+  for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
   map.values = group.read_finite("values", {h5::any});
   const std::size_t n = map.values.size();
   map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));
@@ -166,6 +167,7 @@ void write_curves(const std::string& path, const Curves& all, const Identity& id
     one.annotate("x", "label", c.x_label);
     one.annotate("y", "label", c.y_label);
   }
+  // HDF5 lists datasets by name. The attribute `order` keeps the order of the config.
   std::string order;
   for (const Column& c : all.columns) {
     columns.write<double>(c.name, {c.values.size()}, c.values, c.unit);

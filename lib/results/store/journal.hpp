@@ -36,6 +36,7 @@ class Journal {
   const std::string& path() const { return path_; }
 
  private:
+  // Waits until the file is on the disk.
   void sync();
   std::string path_;
   int fd_ = -1;

@@ -59,6 +59,7 @@ OutputLock::OutputLock(const std::string& output, const std::string& command)
                                        "",
                                        "does the folder exist, and may it be written?"});
     const std::string holder = content(fd_);
+    // A file of this name that is not a lock belongs to the user and must not be overwritten.
     if (!holder.empty() && !holder.starts_with("pid ")) {
       close(fd_);
       throw Failure(Exit::input, Error{{path_},

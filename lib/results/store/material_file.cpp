@@ -313,6 +313,7 @@ FitRecord read_fit(const h5::Group& root) {
   std::istringstream order(parameters.text_attribute("order"));
   for (std::string name; order >> name;)
     fit.parameters.push_back(read_parameter(parameters.group(name), name));
+  // The covariance has one row for each parameter.
   const std::size_t p = fit.parameters.size();
   fit.covariance = read_matrix(group, "covariance", {p, p});
   fit.starts = read_matrix(group, "starts", {h5::any, h5::any});
@@ -333,6 +334,7 @@ FitRecord read_fit(const h5::Group& root) {
   fit.r2 = group.read_scalar("r2");
   fit.aicc = group.read_scalar("aicc");
   fit.bic = group.read_scalar("bic");
+  // Tests in the order of the config.
   const h5::Group tests = root.group("tests");
   std::istringstream names(tests.text_attribute("order"));
   for (std::string name; names >> name;) {

@@ -92,6 +92,7 @@ void write_identity(const h5::Group& root, const Schema& schema, const Identity&
   root.attribute("stage", identity.stage);
   root.attribute("config_hash", identity.config_hash);
   root.attribute("inputs", joined(identity.inputs));
+  // What a person wants to know about the origin, but no content id depends on.
   const h5::Group provenance = root.make_group("provenance");
   provenance.write_text("config", identity.config);
   provenance.write_text("code_version", code_version());

@@ -59,6 +59,7 @@ std::string plain_owner(const fs::path& output, const std::string& stage, bool f
   for (const auto& entry : fs::directory_iterator(folder_of(output), none)) {
     entries.push_back(entry.path());
   }
+  // The order of a folder's entries is arbitrary; the result must not be.
   std::sort(entries.begin(), entries.end());
   for (const fs::path& entry : entries) {
     const bool is_lock = entry.extension() == ".lock";

@@ -176,6 +176,7 @@ StepRecord SolutionReader::step(int index) const {
     if (!solution::among(solution::histories, name))
       record.scalars[name] = number_at(history, name, i);
 
+  // Fields of nodes and elements.
   const h5::Group points = grid.group("PointData");
   const h5::Group cells = grid.group("CellData");
   record.u = vectors(finite_rows(points, "u", i * n, n, {3}));
@@ -189,6 +190,7 @@ StepRecord SolutionReader::step(int index) const {
           finite_rows(cells, name, i * e, e, solution::row_shape<h5::Shape>(name));
     }
 
+  // Contacts.
   if (state_->header.contact_nodes.empty()) return record;
   record.u_ind = vectors(finite_rows(history, "u_ind", i, 1, {3}))[0];
   record.force_ind = vectors(finite_rows(history, "force_ind", i, 1, {3}))[0];

@@ -26,10 +26,13 @@ struct SolutionWriter::State {
   std::optional<StepRecord> before, last;
   std::unique_ptr<StepJournal> journal;
 
+  // Begins the file with everything that all steps share.
   void begin();
+  // Refuses a record that does not fit the mesh or the steps before.
   void check(const StepRecord& record) const;
   void append(const StepRecord& record);
   void contact(const StepRecord& record);
+  // The text of <output>.xdmf.
   std::string as_xdmf();
 };
 
@@ -133,6 +136,7 @@ void SolutionWriter::State::begin() {
     for (std::size_t b = 0; b < header.materials.size(); ++b)
       write_listing(materials.make_group(std::to_string(b)), header.materials[b]);
   }
+  // Directions that follow from angles are not stored, only those of a field.
   int families = 0;
   if (header.directions.from_field()) families = header.directions.n_families();
   for (int k = 0; k < families; ++k) {
@@ -184,6 +188,7 @@ void SolutionWriter::State::check(const StepRecord& record) const {
     if (solution::among(solution::histories, name))
       bug("scalars." + name, "a name of the file's own", "another name");
   }
+  // Every step must have the same fields, because datasets have one row for each step.
   const auto all_names = [](const StepRecord& r) {
     return names_of(r.point_fields) + names_of(r.cell_fields) + names_of(r.scalars);
   };
@@ -222,6 +227,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   const h5::Group steps = grid.group("Steps");
   const h5::Group point_offsets = steps.group("PointDataOffsets");
   const h5::Group cell_offsets = steps.group("CellDataOffsets");
+  // Nodal fields. VTKHDF finds the rows of a step by an offset for each array.
   extend<double>(points, "u", {3}, n, flat(record.u), "mm");
   extend<double>(points, "reaction", {3}, n, flat(record.reaction), "N");
   for (const char* name : {"u", "reaction"})
@@ -237,6 +243,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
                    solution::unit_of(name));
     add(cell_offsets, name, static_cast<std::int64_t>(e) * n_steps);
   }
+  // All steps have the same mesh, so its offsets are always 0.
   add(steps, "Values", record.t, "-");
   for (const char* name : {"PartOffsets", "PointOffsets"}) add(steps, name, std::int64_t{0});
   add(steps, "NumberOfParts", std::int64_t{1});
@@ -245,6 +252,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   for (const std::string& name : cells.datasets())
     if (solution::is_static(name)) add(cell_offsets, name, std::int64_t{0});
 
+  // Numbers of the step, and the resultant reaction of each node set.
   add(history, "t", record.t, "-");
   add(history, "increment", record.increment, "-");
   add(history, "iterations", std::int64_t{record.iterations});
@@ -280,6 +288,7 @@ void SolutionWriter::State::contact(const StepRecord& record) {
     extend<double>(group, "r", {k, 3}, 1, flat(contact.r), "N");
     extend<std::int64_t>(group, "status", {k}, 1, {contact.status.begin(), contact.status.end()});
     extend<double>(group, "gap", {k}, 1, contact.gap, "mm");
+    // Only indenters that adhere have bonds.
     if (contact.beta.empty()) continue;
     extend<double>(group, "beta", {k}, 1, contact.beta, "-");
     extend<double>(group, "bonded_at", {k, 3}, 1, flat(contact.bonded_at), "mm");

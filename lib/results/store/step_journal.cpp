@@ -285,6 +285,7 @@ void StepJournal::replay(const Accept& accept) {
   while (!discarded) {
     const std::optional<std::string> record = journal_.next();
     if (!record) break;
+    // The first byte is the kind of the record.
     const std::string_view content = std::string_view(*record).substr(1);
     if (record->front() == run_record) {
       earlier_.push_back(unpacked_run(content));

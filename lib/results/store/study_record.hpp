@@ -1,14 +1,17 @@
 // The identifiability of a fit and the stability of its material in material.h5. docs/schema.md
 //   /identifiability/{noise, residual_correlation, effective_values, error, correlation, singular,
-//                     combination}                             attribute `words` of
-//                                                              /identifiability
-//   /identifiability/profiles/<name>/{value, rise, interval}   attributes low_open, high_open
+//                     combination}
+//                     attribute `words`: the combination in words
+//   /identifiability/profiles/<name>/{value, rise, interval}
+//                     attributes low_open, high_open
 //   /identifiability/bootstrap/{samples, interval}
-//   /identifiability/advice/{worst, gain, relative}            attribute `tests`
+//   /identifiability/advice/{worst, gain, relative}
+//                     attribute `tests`
 //   /stability/{amount, angle, stretch, plane, safe_hencky, hencky_end, slope_loss,
-//               ellipticity_loss, end, nominal, slope, ellipticity}              attribute
-//                                                                                `verdict`
-//   /fitted_range/{I1_bar, I4_bar}                             largest values that the tests reach
+//               ellipticity_loss, end, nominal, slope, ellipticity}
+//                     attribute `verdict`
+//   /fitted_range/{I1_bar, I4_bar}
+//                     largest values that the tests reach
 #pragma once
 
 #include <optional>

@@ -203,11 +203,13 @@ Mesh read_grid(const h5::Group& root) {
   require_unit(grid, "Points", "mm");
   mesh.X = vectors(grid.read_finite("Points", {n, 3}));
   mesh.connectivity = indices(grid, "Connectivity", {e * per_cell}, static_cast<std::int64_t>(n));
+  // All elements have the same number of nodes, so the offsets must be its multiples.
   const auto offsets = grid.read<std::int64_t>("Offsets", {e + 1});
   for (std::size_t i = 0; i <= e; ++i)
     if (offsets.values[i] != static_cast<std::int64_t>(i) * per_cell)
       grid.refuse("Offsets", fmt::format("cells that do not have {} nodes each", per_cell));
 
+  // The body and the frame of each element.
   std::istringstream names(cells.annotation("body", "names"));
   for (std::string name; names >> name;) mesh.bodies.push_back(name);
   mesh.body = indices(cells, "body", {e}, static_cast<std::int64_t>(mesh.bodies.size()));
@@ -216,6 +218,7 @@ Mesh read_grid(const h5::Group& root) {
   for (std::size_t i = 0; i < e; ++i)
     mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
 
+  // Sets of nodes, and of facets as pairs of element and local facet.
   const h5::Group sets = root.group("sets");
   const h5::Group nodes = sets.group("nodes");
   const h5::Group facets = sets.group("facets");

@@ -67,6 +67,7 @@ void write_vtu(const std::string& path, const Mesh& mesh, double time,
                const std::vector<Field>& point_fields, const std::vector<Field>& cell_fields) {
   const auto n_cells = static_cast<std::size_t>(mesh.n_cells());
   const std::vector<std::int64_t> connectivity(mesh.connectivity.begin(), mesh.connectivity.end());
+  // Offsets in VTK XML are the ends of the elements, without the first 0.
   const std::size_t per_cell = connectivity.size() / std::max<std::size_t>(1, n_cells);
   std::vector<std::int64_t> offsets;
   for (std::size_t e = 1; e <= n_cells; ++e)

@@ -76,6 +76,7 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
       "Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
+    // Each step has the time as value, so that viewers show it.
     s += fmt::format("<Grid Name=\"step_{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", i + 1,
                      times[i]);
     s += fmt::format(
