@@ -1,6 +1,6 @@
-// Where the files beside a main output belong.
+// Where the side files of a main output belong.
 //
-// A fit writes material.h5 and, beside it, parameters.csv, fit.csv and cards for other programs. A
+// A fit writes material.h5 and with it parameters.csv, fit.csv and cards for other programs. A
 // second fit in the same folder writes files of the same names. The first output keeps the plain
 // names; the files of any further output yeoh.h5 go into a folder yeoh_files, so that no run
 // replaces what belongs to another output.

@@ -72,7 +72,7 @@ std::string xdmf(const Mesh& mesh, const std::string& file, const std::vector<do
   const std::size_t per_cell = nodes_per_cell(mesh.type);
   const std::string name = xml_text(file);
   std::string s =
-      "<?xml version=\"1.0\"?>\n<!-- made by langer beside a solution -->\n<Xdmf "
+      "<?xml version=\"1.0\"?>\n<!-- made by langer for a solution -->\n<Xdmf "
       "Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"path\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
