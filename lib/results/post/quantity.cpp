@@ -236,7 +236,8 @@ constexpr QuantityLine lines[]{
      "between the surface of the set now and at rest, positive outwards: the volume of a dome; "
      "in a section that of the whole circle or slab",
      [](const SetState& s) { return s.swept; }, {.facets = true}},
-    {"von_mises_max", "MPa", "greatest von Mises stress", "of the nodal averages, as in figures and in the error estimate; never negative",
+    {"von_mises_max", "MPa", "greatest von Mises stress",
+     "of the nodal averages, as in figures and in the error estimate; never negative",
      [](const Extremes& all) { return all.von_mises; }},
     {"von_mises_max_x", "mm", "x of the greatest von Mises stress", "place in the reference state",
      [](const Extremes& all) { return all.place[0]; }},

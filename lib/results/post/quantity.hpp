@@ -29,7 +29,7 @@ struct SetState {
   double length = 1;             // reference length of a strain [mm]
   double swept = 0;              // volume swept by its facets [mm^3]
 };
-// The extremes over all Gauss points.
+// The extremes of the body; the von Mises stress is that of the nodal averages.
 struct Extremes {
   double von_mises = -1, J = std::numeric_limits<double>::infinity(), fibre_stretch = -1;
   double pressure_min = std::numeric_limits<double>::infinity(), pressure_max = -pressure_min;
