@@ -122,10 +122,10 @@ void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
     one.measure = names(test.measure)[static_cast<std::size_t>(test.measure)];
     columns.tests.push_back(one);
   }
-  if (!columns.tests.empty()) need_replaceable_by(job.side_file("fit.csv"), fit_csv(columns));
-  need_replaceable_by(job.side_file("parameters.csv"), parameters_csv(columns));
+  if (!columns.tests.empty()) require_replaceable_by(job.side_file("fit.csv"), fit_csv(columns));
+  require_replaceable_by(job.side_file("parameters.csv"), parameters_csv(columns));
   for (const Card& card : cards(job.config.law)) {
-    need_replaceable_by(job.side_file(card.file), card.text);
+    require_replaceable_by(job.side_file(card.file), card.text);
   }
 }
 

@@ -145,7 +145,7 @@ std::vector<Spread> spreads_over(const Job<GatherConfig>& job,
   for (const GatherInput& member : members) {
     const int number = std::atoi(member.at.at(0).c_str());
     std::string reason = "no sample of this number";
-    if (number >= 1) reason = why_no_samples(fitted, number);
+    if (number >= 1) reason = reason_without_samples(fitted, number);
     if (!reason.empty())
       refuse(fmt::format("{}: {} has {}", member.at[0], job.input("material"), reason));
     sets.push_back(sample_of(fitted, number).values);

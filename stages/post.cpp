@@ -96,11 +96,13 @@ struct Table {
   int exact_row(const Job<PostConfig>& job, const std::string& key, const std::string& step) const {
     const int found = row(job, key, step);
     if (!is_exact(*parse_step(step), found, t, u_ind))
-      refuse(job, {{key, step, "a state of the solution",
-                    fmt::format("the nearest are t={}, u_ind={} and t={}, u_ind={}; a waypoint of "
-                                "the motion makes the path stop "
-                                "where it is wanted",
-                                t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
+      refuse(
+          job,
+          {{key, step, "a state of the solution",
+            fmt::format(
+                "the closest are t={}, u_ind={} and t={}, u_ind={}; with a waypoint in the motion "
+                "the path has a step exactly there",
+                t[found - 1], u_ind[found - 1], t[found], u_ind[found])}});
     return found;
   }
 };
@@ -113,7 +115,7 @@ bool any_quantity(const std::vector<Measure>& measures, bool (*property)(const Q
 }
 
 // Properties of quantities that cost extra work.
-bool is_contact_area(const QuantityLine& line) { return is_of_contact_surface(line.word); }
+bool is_contact_area(const QuantityLine& line) { return is_contact_surface_column(line.word); }
 bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
 
@@ -128,11 +130,9 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
   for (int row = 0; row <= n_steps; ++row)
     path.add(energy_state(solution.record(row), indenters, loads));
   const std::vector<PathSums> sums = path.sums();
-  const bool areas = asked(
-      measures, [](const QuantityLine& line) { return is_contact_surface_column(line.word); });
-  const bool touched = asked(measures, is<OfContact>);
-  const bool slips = asked(
-      measures, [](const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; });
+  const bool areas = any_quantity(measures, is_contact_area);
+  const bool touched = any_quantity(measures, is_contact_value);
+  const bool slips = any_quantity(measures, needs_slip);
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {

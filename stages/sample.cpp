@@ -16,7 +16,7 @@ std::vector<Summary> sample(const Job<SampleConfig>& job) {
   const std::string file = job.input("material");
   const MaterialFile fitted = read_material(file);
   const int number = job.config.number;
-  if (const std::string reason = why_no_samples(fitted, number); !reason.empty())
+  if (const std::string reason = reason_without_samples(fitted, number); !reason.empty())
     throw Failure(Exit::config, Error{job.where("number"), "number",
                                       fmt::format("{}, and {} has {}", number, file, reason),
                                       "a sample of a fit with a covariance or a bootstrap",

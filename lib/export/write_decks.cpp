@@ -31,7 +31,7 @@ void check_ending(const std::string& file) {
 std::vector<WrittenDeck> write_decks(const std::string& solution,
                                      const std::vector<std::string>& files) {
   for (const std::string& file : files) check_ending(file);
-  for (const std::string& file : files) need_own_text(file, written_by);
+  for (const std::string& file : files) require_own_text(file, written_by);
   const Deck deck = deck_of(SolutionReader(solution), solution);
   std::vector<WrittenDeck> written;
   std::vector<std::string> texts;

@@ -65,7 +65,7 @@ RunLog::~RunLog() {
 
 void RunLog::open(const std::string& path, const std::string& command, bool continued) {
   if (said::silent) return;
-  need_own_log(path);
+  require_own_log(path);
   std::error_code failed;  // if the folder cannot be made, opening the file fails below
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);
@@ -136,7 +136,7 @@ int exit_code_after(const std::string& program, const std::function<int()>& body
   set_traps();
   try {
     return body();
-  } catch (const EndedByFirst&) {
+  } catch (const EndedByRoot&) {
     return static_cast<int>(Exit::ok);  // all ranks end with the code of rank 0
   } catch (const Failure& failure) {
     say_error(failure.what());

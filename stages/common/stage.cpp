@@ -30,7 +30,7 @@ namespace {
 // Runs a function on rank 0 only. If it throws, all ranks end.
 template <class Work>
 void on_root_rank(Work work) {
-  by_first(ranks(), [&] {
+  on_root_rank(ranks(), [&] {
     work();
     return true;
   });
@@ -127,7 +127,7 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
   for (const std::string& notice : config.notices) task.warn("{}", notice);
   on_root_rank([&] {
     // Repeated here, because the files that the config names are known by now.
-    if (!task.dry_run) need_replaceable(task.output);
+    if (!task.dry_run) require_replaceable(task.output);
     begin_beside(task.output);
   });
   return config;

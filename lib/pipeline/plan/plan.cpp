@@ -233,7 +233,7 @@ bool has_text(const fs::path& path, const std::string& text) {
 bool write_if_changed(const fs::path& folder, const std::string& file, const std::string& text) {
   const fs::path path = folder / file;
   make_folder_below(folder.string(), path.parent_path().string());
-  need_replaceable(path.string());
+  require_replaceable(path.string());
   if (has_text(path, text)) return false;
   write_text_file_soon(path.string(), text);
   return true;

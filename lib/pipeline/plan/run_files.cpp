@@ -62,9 +62,9 @@ void check_output(const std::string& output, const std::string& config, const In
     sources.insert(sources.end(), files.begin(), files.end());
   for (const std::string& source : sources)
     if (fs::equivalent(source, output, ec)) refuse(output, "the output would replace an input");
-  need_own_output(output);
+  require_own_output(output);
   // Unfinished output, journal and lock of a run are next to its output.
-  for (const char* suffix : {".part", ".steps", ".lock"}) need_replaceable(output + suffix);
+  for (const char* suffix : {".part", ".steps", ".lock"}) require_replaceable(output + suffix);
   fs::path folder = fs::path(output).parent_path();
   if (folder.empty()) folder = ".";
   fs::create_directories(folder, ec);

@@ -14,7 +14,7 @@ namespace langer {
 void Pictures::check_replaceable(const std::string& name, bool script_makes_svg) const {
   for (PictureFormat format : style_.formats) {
     if (format == PictureFormat::svg && !script_makes_svg) continue;
-    need_replaceable_from(path_of(name + "." + word_of(format)), path_of(name + ".gp"));
+    require_replaceable_from(path_of(name + "." + word_of(format)), path_of(name + ".gp"));
   }
 }
 

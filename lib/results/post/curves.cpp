@@ -18,7 +18,9 @@ Vec3 mean(const std::vector<Vec3>& field, const std::vector<int>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-// The extremes over all Gauss points. The values of all elements are then in `gauss`.
+// The extremes of the body. The greatest von Mises stress is that of the nodal averages, which
+// figures show and whose error the solver estimates; the others are over all Gauss points. The
+// values of all elements are then in `gauss`.
 Extremes extremes(const Body& body, const std::vector<Vec3>& u, GaussValues& gauss) {
   Extremes all;
   for (int e = 0; e < body.mesh().n_cells(); ++e) {

@@ -129,8 +129,8 @@ SurfaceMap read_map(const h5::Group& group, const std::string& name) {
                  {},
                  {}};
   // Units, places, and facets whose nodes exist.
-  need_known_unit(group, "values");
-  for (const char* name : {"places", "points"}) need_unit(group, name, "mm");
+  require_known_unit(group, "values");
+  for (const char* name : {"places", "points"}) require_unit(group, name, "mm");
   map.values = group.read_finite("values", {h5::any});
   const std::size_t n = map.values.size();
   map.places = rows_of<double, 2>(group.read_finite("places", {n, 2}));

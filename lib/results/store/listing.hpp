@@ -72,7 +72,7 @@ template <class V>
 void read_member(const h5::Group& group, const Member& m, const std::string& name, V& value) {
   if constexpr (std::is_arithmetic_v<V>) {
     const double x = group.read_scalar(name);
-    need_unit(group, name, m.unit);
+    require_unit(group, name, m.unit);
     if (!is_in(m.range, x)) group.refuse(name, std::to_string(x), type_words<V>(m));
     value = static_cast<V>(x);
   } else if constexpr (std::is_same_v<V, std::string>)

@@ -57,6 +57,35 @@ StiffnessAtRest read_at_rest(const h5::Group& group) {
           value("error_before"), value("error_after")};
 }
 
+// The noise of the tests, with the criterion of each model that was compared.
+void write_noise(const h5::Group& group, const NoiseRecord& noise) {
+  group.attribute("model", noise.model);
+  group.write_scalar("correlation", noise.correlation, "-");
+  group.write_scalar("share", noise.share, "-");
+  group.write_scalar("largest_correlation", noise.limit, "-");
+  group.write_scalar("minus_two_log_likelihood", noise.minus_two_log_likelihood, "-");
+  for (const auto& [kind, aicc] : noise.aicc) group.write_scalar("aicc_" + kind, aicc, "-");
+}
+
+// The inverse of write_noise().
+NoiseRecord read_noise(const h5::Group& group) {
+  check_units(group, {{"correlation", "-"},
+                      {"share", "-"},
+                      {"largest_correlation", "-"},
+                      {"minus_two_log_likelihood", "-"}});
+  NoiseRecord noise;
+  noise.model = group.text_attribute("model");
+  noise.correlation = group.read_scalar("correlation");
+  noise.share = group.read_scalar("share");
+  noise.limit = group.read_scalar("largest_correlation");
+  noise.minus_two_log_likelihood = group.read_scalar("minus_two_log_likelihood");
+  for (const char* kind : {"white", "proportional", "autoregressive", "both"}) {
+    const std::string name = std::string("aicc_") + kind;
+    if (group.has(name)) noise.aicc.push_back({kind, group.read_scalar(name)});
+  }
+  return noise;
+}
+
 // One group per parameter. The attribute `order` has the order of the rows of the covariance,
 // because HDF5 lists groups by name.
 void write_parameters(const h5::Group& group, const std::vector<FittedParameter>& fitted) {
@@ -280,9 +309,9 @@ FittedTest read_test(const h5::Group& one, const std::string& name) {
 
 // One fitted parameter. Its bounds and its error must have the unit of its value.
 FittedParameter read_parameter(const h5::Group& one, const std::string& name) {
-  need_known_unit(one, "value");
+  require_known_unit(one, "value");
   for (const char* other : {"lower", "upper", "standard_error"})
-    need_unit(one, other, one.unit("value"));
+    require_unit(one, other, one.unit("value"));
   FittedParameter p{name,
                     one.unit("value"),
                     one.read_scalar("value"),

@@ -57,6 +57,18 @@ struct FittedCurve {
   double discretisation_percent = std::numeric_limits<double>::quiet_NaN();
 };
 
+// The noise of the tests under which the parameters have the largest likelihood
+// (fit/noise_model.hpp).
+struct NoiseRecord {
+  std::string model = "white";  // white, proportional, autoregressive, both
+  double correlation = 0;       // from one value of a curve to the next
+  double share = 0;             // of the variance at the mean stress: what grows with the stress
+  double limit = 0;             // largest correlation that the lengths of the curves allow
+  bool at_limit = false, share_at_limit = false;
+  double minus_two_log_likelihood = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::pair<std::string, double>> aicc = {};  // of each kind that was compared
+};
+
 // How the parameters were found: p parameters, n points of the curve, k starts.
 struct FitRecord {
   std::vector<FittedParameter> parameters;
@@ -74,6 +86,10 @@ struct FitRecord {
   // The correlation of the residuals from value to value, and the number of independent values that
   // they count as; 0 in files without it.
   double residual_correlation = 0, effective_values = 0;
+  NoiseRecord noise;
+  // Root mean square error of tests that are predicted from the others, in percent of the largest
+  // stress of each; NaN if it was not asked for.
+  double left_out_error_percent = std::numeric_limits<double>::quiet_NaN();
   std::vector<Tie> ties;  // parameters of the material that follow others
   StudyRecord study;      // as read: fitted range, verdict and safe radius
   MatX sets;              // (n, p) as read: parameters of the study's bootstrap; empty without it

@@ -83,7 +83,7 @@ std::string unit_of_contact_array(const std::string& name) {
 
 // Refuses datasets of a group whose unit is not the expected one.
 void check_units(const h5::Group& group, std::string (*unit)(const std::string& name)) {
-  for (const std::string& name : group.datasets()) need_unit(group, name, unit(name));
+  for (const std::string& name : group.datasets()) require_unit(group, name, unit(name));
 }
 
 void check_all_units(const h5::Group& root) {
