@@ -21,7 +21,8 @@ namespace {
 using Law = std::optional<Material>;
 
 std::string one_rank(const Job<SolveConfig>& job) {
-  return ranks() ? why_one_rank(job.config, job.has("mirror") && !job.dry_run) : "";
+  if (ranks()) return why_one_rank(job.config, job.has("mirror") && !job.dry_run);
+  return "";
 }
 
 void say_alone(const Job<SolveConfig>& job, const std::string& why) {
@@ -106,9 +107,12 @@ std::vector<Summary> solve(const Job<SolveConfig>& given) {
     if (!ranks()->first()) return {};
     say_alone(job, why);
   }
-  const std::string file = job.has("material") ? job.input("material") : "",
-                    mesh = job.has("mesh") ? job.input("mesh") : "";
-  const Law material = job.has("material") ? Law(material_of_body(file)) : job.config.material;
+  std::string file;
+  if (job.has("material")) file = job.input("material");
+  std::string mesh;
+  if (job.has("mesh")) mesh = job.input("mesh");
+  Law material = job.config.material;
+  if (job.has("material")) material = Law(material_of_body(file));
   for (const std::string& line : review_lines(job.config, material, job.where)) {
     job.voice().warn(line);
   }

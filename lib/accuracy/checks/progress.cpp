@@ -14,8 +14,10 @@ namespace {
 
 // "3 Newton + 4 modified iterations": modified Newton keeps an older tangent
 std::string iterations(int newton, int modified) {
-  return modified > 0 ? fmt::format("{} Newton + {} modified iterations", newton, modified)
-                      : fmt::format("{} iterations", newton);
+  if (modified > 0) {
+    return fmt::format("{} Newton + {} modified iterations", newton, modified);
+  }
+  return fmt::format("{} iterations", newton);
 }
 
 // of several indenters each by name: the sum of a pinch tells nothing
@@ -24,7 +26,8 @@ std::string forces_of(const StepRecord& record) {
   for (const auto& [name, contact] : record.contacts)
     if (const auto found = record.scalars.find("force_" + name); found != record.scalars.end())
       each += fmt::format("{}{} {:.5g}", each.empty() ? "" : ", ", name, found->second);
-  return each.empty() ? fmt::format("{:.5g}", record.force_ind.norm()) : each;
+  if (each.empty()) return fmt::format("{:.5g}", record.force_ind.norm());
+  return each;
 }
 
 bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !said::log; }
@@ -68,7 +71,8 @@ Progress::Progress(const Voice& voice, const Run& run)
 }
 
 void Progress::resumed(int steps, double t) {
-  from_ = t, step_ = steps;
+  from_ = t;
+  step_ = steps;
   voice_.say("continues after {} steps, at t = {:.6g}", steps, t);
 }
 
@@ -77,8 +81,8 @@ std::string Progress::left(double t) const {
   if (at_end_of_path(t) || t <= from_) return "";
   const double seconds = (wall_seconds() - start_) * (1 - t) / (t - from_);
   if (seconds < 100) return fmt::format("  {:.0f} s remaining", seconds);
-  return seconds < 6000 ? fmt::format("  {:.0f} min remaining", seconds / 60)
-                        : fmt::format("  {:.1f} h remaining", seconds / 3600);
+  if (seconds < 6000) return fmt::format("  {:.0f} min remaining", seconds / 60);
+  return fmt::format("  {:.1f} h remaining", seconds / 3600);
 }
 
 Problem Progress::watched(Problem problem, double t) {
@@ -141,7 +145,10 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (contact_) {
     int stick = 0, slip = 0;
     for (const auto& [name, contact] : record.contacts)
-      for (int status : contact.status) stick += status == 1, slip += status == 2;
+      for (int status : contact.status) {
+        stick += status == 1;
+        slip += status == 2;
+      }
     line += fmt::format(
         "  stick {} slip {}  penetration {:.1e} mm  cone {:.1e}  complementarity {:.1e}", stick,
         slip, record.scalars.at("penetration"), record.scalars.at("cone"),

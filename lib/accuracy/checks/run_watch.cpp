@@ -44,12 +44,14 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
 void RunWatch::kept(const StepRecord& step) {
   stability_.resume(step);
   if (contact_) contact_->kept(step);
-  if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end())
-    last_said_ =
-        found->second < 0
-            ? fmt::format("strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)",
-                          found->second)
-            : "";
+  if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end()) {
+    if (found->second < 0) {
+      last_said_ = fmt::format(
+          "strong ellipticity is lost (minimum acoustic eigenvalue {:.3g} MPa)", found->second);
+    } else {
+      last_said_ = "";
+    }
+  }
 }
 
 bool RunWatch::breaking_at(bool at_end) const {
@@ -117,11 +119,13 @@ std::vector<std::string> RunWatch::contact_warnings() const {
 }
 
 std::vector<Summary> RunWatch::contact_summary() const {
-  return contact_ ? contact_->summary() : std::vector<Summary>{};
+  if (contact_) return contact_->summary();
+  return std::vector<Summary>{};
 }
 
 std::vector<Summary> RunWatch::stability_summary() const {
-  return when_ == StabilityCheck::off ? std::vector<Summary>{} : stability_.summary();
+  if (when_ == StabilityCheck::off) return std::vector<Summary>{};
+  return stability_.summary();
 }
 
 }  // namespace langer

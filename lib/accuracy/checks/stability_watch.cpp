@@ -39,9 +39,12 @@ bool lower(const Low& x, const Low& y) { return x.stiffness < y.stiffness; }
 // among the lowest so far: a heap, the highest of them in front
 void keep_lowest(std::vector<Low>& lowest, const Low& one) {
   if (lowest.size() == refined && !lower(one, lowest.front())) return;
-  if (lowest.size() == refined)
-    std::pop_heap(lowest.begin(), lowest.end(), lower), lowest.pop_back();
-  lowest.push_back(one), std::push_heap(lowest.begin(), lowest.end(), lower);
+  if (lowest.size() == refined) {
+    std::pop_heap(lowest.begin(), lowest.end(), lower);
+    lowest.pop_back();
+  }
+  lowest.push_back(one);
+  std::push_heap(lowest.begin(), lowest.end(), lower);
 }
 
 // A change of volume that is worth a warning, whatever the bulk modulus is.
@@ -55,7 +58,8 @@ StudyRecord study_from(const std::string& material_file) {
   const std::string extension = std::filesystem::path(material_file).extension();
   if (extension == ".yaml" || extension == ".yml") return {};
   const auto fit = read_material(material_file).fit;
-  return fit ? fit->study : StudyRecord{};
+  if (fit) return fit->study;
+  return StudyRecord{};
 }
 
 int StabilityReport::negative_eigenvalues() const {
@@ -69,7 +73,8 @@ int StabilityReport::negative_eigenvalues() const {
       sum += (*part)->negative;
     }
   }
-  return singular && sum == 0 ? -1 : sum;
+  if (singular && sum == 0) return -1;
+  return sum;
 }
 
 std::string in_words(const StabilityReport& r) {
@@ -93,8 +98,10 @@ std::string in_words(const StabilityReport& r) {
 
 void StabilityWatch::resume(const StepRecord& last) {
   t_before_ = -1;  // the next step is compared with this one from its record
-  if (const auto found = last.scalars.find("driving_force"); found != last.scalars.end())
-    force_before_ = found->second, t_before_ = last.t;
+  if (const auto found = last.scalars.find("driving_force"); found != last.scalars.end()) {
+    force_before_ = found->second;
+    t_before_ = last.t;
+  }
 }
 
 StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
@@ -129,8 +136,9 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
       report.volume_place = gauss_position(body.mesh(), e, 0);
     }
     for (int g = 0; g < n_gauss; ++g) {
-      const double w = body.geometry(e).w[g],
-                   s = std::isfinite(points.stiffness[g]) ? points.stiffness[g] : -INFINITY;
+      const double w = body.geometry(e).w[g];
+      double s = -INFINITY;
+      if (std::isfinite(points.stiffness[g])) s = points.stiffness[g];
       volume += w;
       if (s < 0) report.lost += w;
       keep_lowest(lowest, {s, e, g, points.F[g]});
@@ -138,24 +146,28 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
       const Mat3 F = points.F[g] / std::cbrt(points.J[g]);
       for (const Vec3& direction : a) {
         const double stretch = (F * direction).norm();
-        report.fibre_min = std::min(report.fibre_min, stretch),
+        report.fibre_min = std::min(report.fibre_min, stretch);
         report.fibre_max = std::max(report.fibre_max, stretch);
       }
       if (!study_.range) continue;
       const double far = excess(*study_.range, F, a);
       if (far > slack) report.outside += w;
-      if (far > report.farthest)
-        report.farthest = far, report.farthest_place = gauss_position(body.mesh(), e, g);
+      if (far > report.farthest) {
+        report.farthest = far;
+        report.farthest_place = gauss_position(body.mesh(), e, g);
+      }
     }
   }
-  report.lost /= volume, report.outside /= volume;
+  report.lost /= volume;
+  report.outside /= volume;
   std::sort(lowest.begin(), lowest.end(), lower);
   report.stiffness = INFINITY;
   for (const Low& point : lowest) {
     const double s =
         smallest_shear_stiffness(body.material(point.cell), point.F, body.fibres(point.cell)).value;
     if (std::isfinite(s) && s >= report.stiffness) continue;
-    report.stiffness = s, report.cell = point.cell,
+    report.stiffness = s;
+    report.cell = point.cell;
     report.place = gauss_position(body.mesh(), point.cell, point.point);
     if (!std::isfinite(s)) break;
   }
@@ -172,7 +184,8 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
     const double scale = std::max(std::abs(report.driving_force), std::abs(force_before_));
     report.falling = t_before_ >= 0 && report.driving_force < force_before_ - 1e-9 * scale;
   }
-  force_before_ = report.driving_force, t_before_ = state.t;
+  force_before_ = report.driving_force;
+  t_before_ = state.t;
   return report;
 }
 
@@ -214,8 +227,10 @@ void StabilityWatch::keep(const StabilityReport& r) {
   if (r.breaking) most_breaking_ = std::max(most_breaking_, r.breaking->negative);
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
-  if (r.volume_change > volume_change_)
-    volume_change_ = r.volume_change, volume_place_ = r.volume_place;
+  if (r.volume_change > volume_change_) {
+    volume_change_ = r.volume_change;
+    volume_place_ = r.volume_place;
+  }
   outside_.add(r.t, r.outside > 0);
   falling_.add(r.t, r.falling);
 }

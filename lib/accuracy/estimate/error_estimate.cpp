@@ -15,6 +15,7 @@
 #include "accuracy/estimate/truncation.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/assembly/assembler.hpp"
 #include "mechanics/mesh/reference.hpp"
@@ -40,7 +41,8 @@ struct Family {
     for (const SolvedPath& mesh : of)
       for (const Valued& v : mesh.found)
         if (v.name == name) values.push_back(v.value);
-    return values.size() == of.size() ? values : std::vector<double>{};
+    if (values.size() == of.size()) return values;
+    return std::vector<double>{};
   }
   std::vector<double> forces(const std::string& name, double t) const {
     std::vector<double> values;
@@ -76,11 +78,15 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   VecX w(n), x(n), q(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto mesh = static_cast<std::size_t>(i);
-    w[i] = std::pow(length[mesh], -2), x[i] = std::pow(length[mesh], order), q[i] = values[mesh];
+    w[i] = std::pow(length[mesh], -2);
+    x[i] = std::pow(length[mesh], order);
+    q[i] = values[mesh];
   }
   w /= w.sum();
-  const double x_mean = w.dot(x), q_mean = w.dot(q);
-  const VecX dx = x.array() - x_mean, dq = q.array() - q_mean;
+  const double x_mean = w.dot(x);
+  const double q_mean = w.dot(q);
+  const VecX dx = x.array() - x_mean;
+  const VecX dq = q.array() - q_mean;
   const double A = w.dot(dx.cwiseProduct(dq)) / w.dot(dx.cwiseProduct(dx));
   const VecX left = dq - A * dx;
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
@@ -156,7 +162,8 @@ double sharpness(const SolveConfig& config) {
 // share of the force (docs/work_precision.md).
 double round_an_edge(const SolveConfig& config, double touching, bool section) {
   const double sharp = sharpness(config);
-  return sharp <= 1 || section || touching < 1 ? 0 : std::min(0.5, 0.8 * sharp / touching);
+  if (sharp <= 1 || section || touching < 1) return 0;
+  return std::min(0.5, 0.8 * sharp / touching);
 }
 
 double greatest_friction(const SolveConfig& config) {
@@ -205,7 +212,8 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 double shear_at_edge(const SolveConfig& config, double touching) {
   constexpr double all_stick = 0.2;  // friction from which on that is so
   const double share = std::min(1.0, greatest_friction(config) / all_stick);
-  return touching < 1 ? 0 : share * std::min(0.5, 1.6 / touching);
+  if (touching < 1) return 0;
+  return share * std::min(0.5, 1.6 / touching);
 }
 
 // What nodes that come into contact one by one make of a force, relative to it (make
@@ -220,10 +228,14 @@ double one_by_one(double touching, bool section) {
 // indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
-  int order = 2;
-  for (const auto& [name, contact] : config.contacts)
-    order = std::min(order, force_order(contact.rigid));
-  return order;
+  for (const auto& [name, contact] : config.contacts) {
+    if (std::holds_alternative<Plane>(contact.rigid) ||
+        std::holds_alternative<Cylinder>(contact.rigid) ||
+        std::holds_alternative<Aperture>(contact.rigid)) {
+      return 1;
+    }
+  }
+  return 2;
 }
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
@@ -304,7 +316,8 @@ struct Solutions {
   // meshes of the kind that tells: stresses and what lies far from the contact are those of the
   // cells
   const Family& telling(const Valued& q) const {
-    return (q.of_force() && !family.of.empty()) || alike.of.empty() ? family : alike;
+    if ((q.of_force() && !family.of.empty()) || alike.of.empty()) return family;
+    return alike;
   }
   // what the body leaves out, on the longest cells
   std::vector<ErrorEstimate::Part> left_out(const Valued& q) const {
@@ -372,7 +385,8 @@ double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
     where = step.t;
   }
   const bool ends_low = force_at(path, name, 1) < 0.5 * largest;
-  return at || ends_low ? where : 1;
+  if (at || ends_low) return where;
+  return 1;
 }
 
 // Of the steps the one with the largest error in percent, among those that are not nearly without
@@ -396,7 +410,7 @@ Failure not_in_scene(const std::string& asked, const std::vector<Valued>& found,
   std::string known;
   for (const Valued& q : found) {
     if (q.name == "von_mises_max") continue;
-    known += (known.empty() ? "" : ", ") + q.name;
+    append(known, ", ", q.name);
   }
   return Failure(
       Exit::config,
@@ -421,17 +435,20 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   // no study stands for these scenes: their meshes show the order themselves
   const bool observes = config.contacts.empty() || in_family(config);
   const bool section = config.mesh && is_section(config.mesh->geometry);
-  const double beside_hole = beside_holes(config),
-               beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
+  const double beside_hole = beside_holes(config);
+  const double beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
-    const double order = q.name == "von_mises_max" ? 1 : order_of_force(config);
+    double order = 1;
+    if (q.name != "von_mises_max") order = order_of_force(config);
     const auto limit = limit_of(all.telling(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
     std::optional<ObservedLaw> law;
     if (observes) law = observed_law(all.telling(q).length, on_meshes, order);
-    const double increments =
-        in_increments.size() == 2 ? refined.per_change * (in_increments[1] - in_increments[0]) : 0;
+    double increments = 0;
+    if (in_increments.size() == 2) {
+      increments = refined.per_change * (in_increments[1] - in_increments[0]);
+    }
     ErrorEstimate e{
         q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
     e.t = t;
@@ -474,7 +491,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     if (q.name == "von_mises_max" && q.value < no_stress) continue;
     const Family& meshes_of_q = all.telling(q);
     const bool on_path = q.of_force() || q.of_travel();
-    const double t = on_path ? judged_at(config, itself.path, q.name) : 1;
+    double t = 1;
+    if (on_path) t = judged_at(config, itself.path, q.name);
     std::optional<ErrorEstimate> estimate;
     if (t == 1) {
       estimate = judged(q, 1, meshes_of_q.ends(q.name), increments.ends(q.name));
@@ -528,7 +546,8 @@ std::string in_words(const ErrorEstimate& e) {
   if (e.grows)
     return fmt::format("{} {:.4g} {} on these cells: it grows without bound on finer meshes",
                        e.of.name, e.of.value, e.of.unit);
-  const std::string at = e.t < 1 ? fmt::format(" at t = {:.4g}", e.t) : "";
+  std::string at;
+  if (e.t < 1) at = fmt::format(" at t = {:.4g}", e.t);
   if (e.none_yet())
     return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit,
                        e.of.name.starts_with("force") ? "nothing is touched" : "no error");
@@ -536,9 +555,11 @@ std::string in_words(const ErrorEstimate& e) {
     return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
   const std::string begins = fmt::format("{}{} {:.4g} {} +- {:.2g} %", e.of.name, at, e.of.value,
                                          e.of.unit, e.in_percent(e.total()));
-  const double cells = e.in_percent(e.cells), solver = e.in_percent(e.solver);
+  const double cells = e.in_percent(e.cells);
+  const double solver = e.in_percent(e.solver);
   if (!e.has_limit) {
-    const double increments = e.in_percent(e.increments), scatter = e.in_percent(e.scatter);
+    const double increments = e.in_percent(e.increments);
+    const double scatter = e.in_percent(e.scatter);
     return fmt::format("{} (cells {:.2g} by recovery{}{}, solver {:.1g} %)", begins, cells,
                        increments > 0 ? fmt::format(", increments {:.2g}", increments) : "",
                        scatter > 0 ? fmt::format(", scatter {:.2g}", scatter) : "", solver);
@@ -560,13 +581,15 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
     const auto add = [&](const char* what, double value) {
       summary.push_back({e.of.name + what, value, e.of.unit});
     };
-    add("_error", e.total()), add("_error_cells", e.cells);
+    add("_error", e.total());
+    add("_error_cells", e.cells);
     if (e.has_limit) add("_limit", e.limit());
     if (e.t < 1) {
       add("_judged", e.of.value);
       summary.push_back({e.of.name + "_judged_at", e.t, "-"});
     }
-    add("_error_increments", e.increments), add("_error_scatter", e.scatter);
+    add("_error_increments", e.increments);
+    add("_error_scatter", e.scatter);
     add("_error_solver", e.solver);
     for (const ErrorEstimate::Part& part : e.left_out)
       add(("_error_" + part.name).c_str(), part.value);
@@ -580,7 +603,8 @@ double estimate_seconds(const SolveConfig& config, const std::optional<Material>
   const auto seconds = [&](const SolveConfig& scene) {
     return forecast_of(scene, material, where).seconds();
   };
-  double sum = refined.per_change == 0 ? 0 : seconds(refined.other_increments);
+  double sum = 0;
+  if (refined.per_change != 0) sum = seconds(refined.other_increments);
   for (const auto* scenes : {&refined.hex8, &refined.hex27})
     for (const SolveConfig& scene : *scenes) sum += seconds(scene);
   for (const auto& [truncation, scenes] : refined.wider)

@@ -36,7 +36,10 @@ double cells_along(const Geometry& geometry) {
   double sum = 0;
   int axes = 0;
   for (int n : numbers_of_cells(geometry))
-    if (n > 1) sum += std::log(n), ++axes;
+    if (n > 1) {
+      sum += std::log(n);
+      ++axes;
+    }
   return std::exp(sum / std::max(axes, 1));
 }
 
@@ -157,11 +160,14 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   if (!has_friction(config) && !config.path.seconds) return refined;
   const double increment = config.path.largest_increment();
   const bool shorter = increment >= 0.1;
-  const double another = shorter ? std::min(0.5 * increment, few) : 2 * increment,
-               ratio = increment / another;
-  refined.per_change = shorter ? -ratio * ratio / (ratio * ratio - 1) : 1;
+  double another = 2 * increment;
+  if (shorter) another = std::min(0.5 * increment, few);
+  const double ratio = increment / another;
+  refined.per_change = 1;
+  if (shorter) refined.per_change = -ratio * ratio / (ratio * ratio - 1);
   // on cells so long that nodes stick by chance their increments do, too
-  refined.other_increments = refined.edge_unresolved ? refined.hex8.front() : coarsest;
+  refined.other_increments = coarsest;
+  if (refined.edge_unresolved) refined.other_increments = refined.hex8.front();
   refined.other_increments.path.use_increment(another);
   refined.other_increments.path.time_error /=
       ratio * ratio * ratio;  // it grows with the third power of an increment

@@ -24,10 +24,11 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
   if (!by_refinement(config) || !has_numbers(config)) return 0;
   const double estimate = estimate_seconds(config, material, where);
   if (config.estimate == EstimateBy::refinement) return estimate;
-  return estimate <=
-                 worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds()
-             ? estimate
-             : 0;
+  if (estimate <=
+      worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds()) {
+    return estimate;
+  }
+  return 0;
 }
 
 // half of the cells' part by shorter cells, of the increments' by shorter ones
@@ -50,8 +51,8 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
   const bool asked = config.estimate.has_value();
   if (asked && config.estimate != EstimateBy::automatic) return *config.estimate;
   if (asked && estimate_forecast(config, material, where, run) > 0) return EstimateBy::automatic;
-  const EstimateBy cheap =
-      recovered_by_default(config, run) ? EstimateBy::recovery : EstimateBy::none;
+  EstimateBy cheap = EstimateBy::none;
+  if (recovered_by_default(config, run)) cheap = EstimateBy::recovery;
   if (!asked) return cheap;
   const char* why = has_numbers(config) ? "other meshes would take more than a third of the solve"
                                         : "the cells follow from no numbers of this config";

@@ -142,8 +142,8 @@ CellType first_cells(const SolveConfig& config, bool cut) {
                         !has_edge_in_contact_radii(config.mesh->geometry);
   const bool better =
       (by_faces || bends) && !has_friction(config) && !wants_other_than_hex27(config);
-  return better && !cut && config.mesh->cells == CellType::hex8 ? CellType::hex27
-                                                                : config.mesh->cells;
+  if (better && !cut && config.mesh->cells == CellType::hex8) return CellType::hex27;
+  return config.mesh->cells;
 }
 
 // With the config's own cells, or as many nodes; shorter where there are too few of them to make
@@ -238,8 +238,11 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   if (!asks_for_accuracy(config)) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
-  chosen.wanted = config.accuracy ? *percent_of(config.accuracy->within)
-                                  : by_name[static_cast<int>(*config.fidelity)];
+  if (config.accuracy) {
+    chosen.wanted = *percent_of(config.accuracy->within);
+  } else {
+    chosen.wanted = by_name[static_cast<int>(*config.fidelity)];
+  }
   const bool may_be_cut =
       !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
   chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
@@ -252,13 +255,15 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   }
   const SolveConfig written = config;
   Geometry& geometry = config.mesh->geometry;
-  const std::optional<Footprint> print = std::holds_alternative<IndentedBlock>(geometry)
-                                             ? footprint(config, box(geometry))
-                                             : std::nullopt;
+  std::optional<Footprint> print;
+  if (std::holds_alternative<IndentedBlock>(geometry)) {
+    print = footprint(config, box(geometry));
+  }
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   const CellType first = first_cells(config, chosen.cut);
   if (wants_family(config) && !chosen.cut) put_in_family(geometry, breaks_of(config));
-  chosen.written = geometry, chosen.finest = finest_edge(*config.mesh, first);
+  chosen.written = geometry;
+  chosen.finest = finest_edge(*config.mesh, first);
   const bool elastic = !config.path.seconds;  // as the study's bodies
   chosen.shown = of_the_studys_kind(config, print) && elastic && !chosen.cut;
   const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) &&
@@ -267,9 +272,13 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   auto level = std::find_if(levels.begin(), levels.end(),
                             [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
   chosen.met = chosen.shown && level != levels.end();
-  chosen.level = !chosen.shown ? where_to_begin(config, chosen, first)
-                 : chosen.met  ? *level
-                               : levels.back();
+  if (!chosen.shown) {
+    chosen.level = where_to_begin(config, chosen, first);
+  } else if (chosen.met) {
+    chosen.level = *level;
+  } else {
+    chosen.level = levels.back();
+  }
   if (!plain && !has_friction(config))
     chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
@@ -365,7 +374,8 @@ OrdersSeen Accuracy::orders_since_before(const std::vector<ErrorEstimate>& estim
     if (shorter > 1.1 && now.contains(name))
       orders[name] =
           std::clamp(std::log(percent / std::max(now[name], 1e-300)) / std::log(shorter), 1.0, 2.5);
-  edge_before_ = chosen_->level.edge, cells_before_ = std::move(now);
+  edge_before_ = chosen_->level.edge;
+  cells_before_ = std::move(now);
   return orders;
 }
 
@@ -384,7 +394,8 @@ std::string Accuracy::not_begun(const std::string& level, double cells,
   const LevelCost forecast = cost();
   voice_.say("accuracy: {}: {}, by the forecast", level, in_words(forecast));
   const std::string why = too_dear(forecast, left);
-  return why.empty() ? "" : fmt::format("a next level, {}, {}", level, why);
+  if (why.empty()) return "";
+  return fmt::format("a next level, {}, {}", level, why);
 }
 
 std::string Accuracy::not_begun(const AccuracyLevel& level) const {
@@ -415,7 +426,8 @@ bool Accuracy::shorter_cells() {
 
 void Accuracy::take(const AccuracyLevel& level) {
   config_ = with(level);
-  chosen_->level = level, chosen_->level.error = 0;
+  chosen_->level = level;
+  chosen_->level.error = 0;
   chosen_->met = chosen_->shown = false;  // no study stands for it
 }
 
@@ -449,7 +461,8 @@ std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& esti
   if (!chosen_) return std::nullopt;
   if (forces_judged(estimates).empty()) return 0.0;
   const ReachedAccuracy found = reached(*chosen_, estimates);
-  return found.met ? std::nullopt : std::optional(chosen_->wanted / found.percent);
+  if (found.met) return std::nullopt;
+  return std::optional(chosen_->wanted / found.percent);
 }
 
 std::optional<double> Accuracy::missed_by(const std::vector<ErrorEstimate>& estimates) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/run_words.hpp"
 
@@ -42,7 +43,7 @@ Mesh ModelChoice::mesh() {
   cells_.emplace(mesh);
   if (const int times = shorten_under(config(), *cells_); times > 0)
     voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times,
-               times == 1 ? "" : "s", cells_->mesh().n_cells(), mesh.n_cells());
+               plural_s(times), cells_->mesh().n_cells(), mesh.n_cells());
   return cells_->mesh();
 }
 
@@ -56,7 +57,12 @@ bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
   std::optional<Level> here;
   const std::optional<double> percent = accuracy_.missed_by(errors.at_end);
   if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_, percent};
-  const bool again = errors.of_cells.empty() ? accuracy_.refine(errors.at_end) : cut(errors, mesh);
+  bool again = false;
+  if (errors.of_cells.empty()) {
+    again = accuracy_.refine(errors.at_end);
+  } else {
+    again = cut(errors, mesh);
+  }
   if (again) {
     before_ = std::move(here);
     return true;
@@ -101,10 +107,14 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   CutMesh next = *cells_;
   next.cut(
       largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
-  const int n = next.mesh().n_cells(), before = mesh.n_cells();
-  const std::string why =
-      n > most_cut ? fmt::format("a next level would have {} cells, of at most {}", n, most_cut)
-                   : accuracy_.not_begun(next.mesh());
+  const int n = next.mesh().n_cells();
+  const int before = mesh.n_cells();
+  std::string why;
+  if (n > most_cut) {
+    why = fmt::format("a next level would have {} cells, of at most {}", n, most_cut);
+  } else {
+    why = accuracy_.not_begun(next.mesh());
+  }
   if (!why.empty()) {
     accuracy_.ends_here(why);
     return false;

@@ -27,15 +27,20 @@ Geometry with_cells(const Geometry& written, double factor) {
 
 // as it would be on cells longer by the factor `edge`, in increments longer by `step` [%]
 double percent_with(ErrorEstimate e, double edge, double step, double order) {
-  e.cells *= std::pow(edge, order), e.increments *= step * step, e.scatter *= edge * edge;
+  e.cells *= std::pow(edge, order);
+  e.increments *= step * step;
+  e.scatter *= edge * edge;
   return e.in_percent(e.total());
 }
 
 void put_length(const ChosenLevel& chosen, double length, Geometry& geometry) {
-  if (double* edge = edge_in_contact_radii(geometry))
+  if (double* edge = edge_in_contact_radii(geometry)) {
     *edge = length;
-  else
-    geometry = length == 1 ? chosen.written : with_cells(chosen.written, length);
+  } else if (length == 1) {
+    geometry = chosen.written;
+  } else {
+    geometry = with_cells(chosen.written, length);
+  }
 }
 
 // the shortest cells of a next level, in those of this one
@@ -45,7 +50,8 @@ double shortest_at_once(const ChosenLevel& chosen) {
     put_length(chosen, factor * chosen.level.edge, geometry);
     return n_cells(geometry);
   };
-  const double most = most_cells_more * cells_with(1), least = chosen.finest / chosen.level.edge;
+  const double most = most_cells_more * cells_with(1);
+  const double least = chosen.finest / chosen.level.edge;
   double factor = 1;
   while (factor > least && cells_with(0.97 * factor) <= most) factor *= 0.97;
   return factor;
@@ -93,7 +99,8 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
       step = std::min(step, 0.8);
   }
   step = std::max(step, 1 / most_increments_more);
-  const double least = chosen.finest / chosen.level.edge, at_once = shortest_at_once(chosen);
+  const double least = chosen.finest / chosen.level.edge;
+  const double at_once = shortest_at_once(chosen);
   for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
     if (percent_with(e, least, step, e.order) > (is_rough ? too_large : 1) * chosen.wanted)
@@ -102,7 +109,8 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
     const double order = found == seen.end() ? e.order : found->second;
     while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
-  finer.edge *= edge, finer.step *= step;
+  finer.edge *= edge;
+  finer.step *= step;
   // numbers of a family come in fours: shorter until they are others
   const auto cells_of = [&](double length) {
     Geometry geometry = chosen.written;
@@ -113,7 +121,7 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
     const double now = cells_of(chosen.level.edge);
     while (finer.edge > chosen.finest && cells_of(finer.edge) <= now) finer.edge *= 0.97;
   }
-  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step)),
+  finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step));
   finer.edge = std::max(finer.edge, chosen.finest);
   if (finer.edge > 0.99 * chosen.level.edge && finer.step > 0.99 * chosen.level.step)
     return std::nullopt;
@@ -140,7 +148,8 @@ AccuracyLevel finest_level(const ChosenLevel& chosen) {
 std::optional<AccuracyLevel> with_shorter_cells(const ChosenLevel& chosen) {
   AccuracyLevel shorter = chosen.level;
   shorter.edge *= 0.7;
-  return shorter.edge < chosen.finest ? std::nullopt : std::optional(shorter);
+  if (shorter.edge < chosen.finest) return std::nullopt;
+  return std::optional(shorter);
 }
 
 }  // namespace langer

@@ -13,6 +13,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "core/base/text.hpp"
 #include "core/base/traps.hpp"
 
 namespace langer {
@@ -58,10 +59,13 @@ int residual(N_Vector u, N_Vector f, void* data) {
   if (!measurable(round.x) || !round.balance.residual(round.x, round.f) || !measurable(round.f))
     return 1;
   map(f) = round.f;
-  if (const double size = round.f.norm(); size < round.least)
-    round.least = size, round.best = round.x;
+  if (const double size = round.f.norm(); size < round.least) {
+    round.least = size;
+    round.best = round.x;
+  }
   // accelerated iterations go on past the answer, where Anderson's system is singular: end them
-  return round.fixed_tangent && round.least <= 0.3 * round.tolerance ? -1 : 0;
+  if (round.fixed_tangent && round.least <= 0.3 * round.tolerance) return -1;
+  return 0;
 }
 
 // g(u) = u - K0^-1 f(u)
@@ -102,7 +106,8 @@ int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunr
 #if SUNDIALS_VERSION_MAJOR >= 7
 int create(SUNContext* context) {
   const int failed = SUNContext_Create(SUN_COMM_NULL, context);
-  return failed ? failed : SUNContext_ClearErrHandlers(*context);
+  if (failed) return failed;
+  return SUNContext_ClearErrHandlers(*context);
 }
 void print_no_errors(void*) {}
 #else
@@ -142,10 +147,12 @@ void solve_round(Round& round) {
   for (sunindextype i = 0; i < n; ++i) N_VGetArrayPointer(u)[i] = round.x[round.balance.free[i]];
   N_VConst(1, ones);
   const Owned<SUNMatrix, free_matrix> matrix{SUNMatNewEmpty(context)};
-  matrix.value->ops->getid = matrix_id, matrix.value->ops->zero = matrix_zero;
+  matrix.value->ops->getid = matrix_id;
+  matrix.value->ops->zero = matrix_zero;
   const Owned<SUNLinearSolver, free_solver> linear{SUNLinSolNewEmpty(context)};
   linear.value->content = &round;
-  linear.value->ops->gettype = solver_type, linear.value->ops->setup = solver_setup,
+  linear.value->ops->gettype = solver_type;
+  linear.value->ops->setup = solver_setup;
   linear.value->ops->solve = solver_solve;
 
   const Owned<void*, free_memory> memory{KINCreate(context)};
@@ -184,7 +191,8 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
   const double absolute = options.absolute.value_or(problem.least_force);
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
-    report.outcome = outcome, report.why = std::move(why);
+    report.outcome = outcome;
+    report.why = std::move(why);
     return report;
   };
   for (int round = 0;; ++round) {
@@ -193,8 +201,7 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
     ++report.evaluations;
     compare(now, absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible,
-                  now.missing.empty() ? "a force is not finite" : now.missing);
+      return stop(Outcome::inadmissible, text_or(now.missing, "a force is not finite"));
     const bool balanced = now.residual <= report.tolerance;
     if (round > 0 && balanced && now.others) return stop(Outcome::converged, "");
     if (round == options.rounds)
@@ -209,8 +216,7 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
     const Assessment then = problem.assess(x, false);
     ++report.evaluations;
     if (!then.admissible || !std::isfinite(then.residual))
-      return stop(Outcome::inadmissible,
-                  then.missing.empty() ? "a force is not finite" : then.missing);
+      return stop(Outcome::inadmissible, text_or(then.missing, "a force is not finite"));
     Round inner{.balance = balance,
                 .options = options,
                 .problem = problem,

@@ -55,7 +55,8 @@ double end_of_increment(const LoadPathOptions& options, const Stage& stage, doub
     next = 0.5 * (t + stage.end);
   if (!options.steps || options.seconds) return next;
   // sums of equal increments are kept from drifting
-  const double in_steps = next * *options.steps, whole = std::round(in_steps);
+  const double in_steps = next * *options.steps;
+  const double whole = std::round(in_steps);
   const bool on_grid = std::abs(whole - in_steps) < 1e-6 && whole / *options.steps > t + tiny;
   if (on_grid) return whole / *options.steps;
   return next;
@@ -99,8 +100,10 @@ PathReport load_path(
       continue;
     }
     // errors grow with the third power of an increment
-    const double fits =
-        solved.time_error > 0 ? 0.9 * std::cbrt(options.time_error / solved.time_error) : 2;
+    double fits = 2;
+    if (solved.time_error > 0) {
+      fits = 0.9 * std::cbrt(options.time_error / solved.time_error);
+    }
     if (!options.steps && solved.time_error > options.time_error && fits * (next - t) > smallest) {
       failed = true;
       shortened = true;
@@ -117,7 +120,8 @@ PathReport load_path(
     report.iterations += solved.iterations;
     report.again += solved.again;
     // where the error of an increment is known it decides
-    const double growth = !options.steps && solved.time_error > 0 ? 2 : 1.5;
+    double growth = 1.5;
+    if (!options.steps && solved.time_error > 0) growth = 2;
     if (solved.iterations <= options.easy)
       dt = std::min(stage.largest, std::max(dt, taken) * growth);
     if (!options.steps && solved.time_error > 0) dt = std::min(dt, fits * taken);

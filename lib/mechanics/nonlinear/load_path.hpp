@@ -20,8 +20,14 @@ struct LoadPathOptions {
   double time_error = 1e-3;
   std::optional<double> longest_attempt;  // [s], wall time
 
-  double first_increment() const { return steps ? 1.0 / *steps : first; }
-  double largest_increment() const { return steps ? 1.0 / *steps : largest; }
+  double first_increment() const {
+    if (steps) return 1.0 / *steps;
+    return first;
+  }
+  double largest_increment() const {
+    if (steps) return 1.0 / *steps;
+    return largest;
+  }
   double shortest_with_a_jump() const {
     return largest_increment() / 32;
   }  // of what adheres (solve/release.hpp)
@@ -29,7 +35,8 @@ struct LoadPathOptions {
   // increment is halved (solve/edge_slip.hpp). Past a sharp edge every increment has to pass it.
   double shortest_past_an_edge() const { return largest_increment() / 64; }
   void use_increment(double increment) {
-    steps.reset(), first = largest = increment;
+    steps.reset();
+    first = largest = increment;
   }  // for all of the path
 
   static void fields(auto& v) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include "core/base/text.hpp"
 
 namespace langer {
 
 void compare(const Assessment& now, double absolute, double relative, SolveReport& report) {
-  report.residual = now.residual, report.reference = now.reference;
+  report.residual = now.residual;
+  report.reference = now.reference;
   report.asked = std::max(absolute, relative * now.reference);
   report.tolerance = std::max(report.asked, now.floor);
 }
@@ -23,17 +25,18 @@ bool is_stopped(const Problem& problem, SolveReport& report) {
 bool take_step(const Problem& problem, const std::optional<VecX>& dx, VecX& x,
                const std::optional<double>& largest_move, SolveReport& report) {
   if (!dx || !dx->allFinite()) {
-    report.outcome = Outcome::singular,
+    report.outcome = Outcome::singular;
     report.why = "the tangent is singular, or the body is unstable in many directions at once";
     return false;
   }
   const double longest = dx->lpNorm<Eigen::Infinity>();
   const double limit = largest_move.value_or(problem.size);
-  double step = longest > limit ? limit / longest : 1;
+  double step = 1;
+  if (longest > limit) step = limit / longest;
   int halvings = 0;
   while (!problem.admissible(x + step * *dx) && ++halvings <= 8) step *= 0.5;
   if (halvings > 8) {
-    report.outcome = Outcome::inadmissible,
+    report.outcome = Outcome::inadmissible;
     report.why = "no admissible step: elements would be turned inside out";
     return false;
   }
@@ -54,12 +57,20 @@ class OldTangent {
   void begins(const Assessment& first) {
     rests_ = first.others && first.residual < 0.1 * first.reference;
   }
-  void renewed() { used_ = 0, of_before_ = false; }
-  void that_of_before() { used_ = 1, of_before_ = true; }
+  void renewed() {
+    used_ = 0;
+    of_before_ = false;
+  }
+  void that_of_before() {
+    used_ = 1;
+    of_before_ = true;
+  }
   bool used() const { return used_ > 0; }
   // residual before the next correction, and the one wanted
   bool serves(double residual, double wanted) {
-    const double share = before_ > 0 ? residual / before_ : 1;  // what the last correction left
+    // what the last correction left
+    double share = 1;
+    if (before_ > 0) share = residual / before_;
     before_ = residual;
     if (used_ == 0)
       return any_ && (share < 0.1 || rests_);  // not while a long step still finds its contacts
@@ -85,11 +96,13 @@ class OldTangent {
 }  // namespace
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
-  const double strict = options.relative > NewtonOptions{}.relative ? 1 : 1e-3;
+  double strict = 1e-3;
+  if (options.relative > NewtonOptions{}.relative) strict = 1;
   const double absolute = options.absolute.value_or(problem.least_force);
   SolveReport report;
   const auto stop = [&](Outcome outcome, std::string why) {
-    report.outcome = outcome, report.why = std::move(why);
+    report.outcome = outcome;
+    report.why = std::move(why);
     return report;
   };
   const bool reuses = options.reuse_tangent && problem.correction_again;
@@ -101,12 +114,12 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     ++report.evaluations;
     compare(now, absolute, options.relative, report);
     if (!now.admissible || !std::isfinite(now.residual))
-      return stop(Outcome::inadmissible,
-                  now.missing.empty() ? "a force is not finite" : now.missing);
+      return stop(Outcome::inadmissible, text_or(now.missing, "a force is not finite"));
     if (report.evaluations == 1) old.begins(now);
-    const double wanted =
-        old.used() ? std::max({absolute, strict * options.relative * now.reference, now.floor})
-                   : report.tolerance;
+    double wanted = report.tolerance;
+    if (old.used()) {
+      wanted = std::max({absolute, strict * options.relative * now.reference, now.floor});
+    }
     const bool balanced = now.residual <= wanted;
     if (report.iterations > 0 && balanced && now.others) return stop(Outcome::converged, "");
     std::optional<VecX> dx;
@@ -114,9 +127,11 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     if (reuses && ((old.serves(now.residual, wanted) && report.iterations > 0) || first))
       dx = problem.correction_again();
     if (dx && first) {
-      old.that_of_before(), ++report.iterations;
+      old.that_of_before();
+      ++report.iterations;
     } else if (dx) {
-      old.corrected(), ++report.again;
+      old.corrected();
+      ++report.again;
     } else {
       if (report.iterations == options.iterations)
         return stop(Outcome::not_converged,
@@ -124,7 +139,8 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
                              : fmt::format("residual {:.2e} N > {:.2e} N after {} iterations",
                                            now.residual, report.tolerance, report.iterations));
       dx = problem.correction();
-      old.renewed(), ++report.iterations;
+      old.renewed();
+      ++report.iterations;
     }
     if (!take_step(problem, dx, x, options.largest_move, report)) return report;
   }

@@ -117,15 +117,20 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
   // the indentation
   const auto attempt = [&](double) {
     SolveReport report;
-    report.outcome = Outcome::converged, report.iterations = 4;
+    report.outcome = Outcome::converged;
+    report.iterations = 4;
     return report;
   };
   const bool reuses = by.reuses && !by.mixed;
   const auto accepted = [&](double, double taken, double, const SolveReport&) {
     const double decades = std::log10(taken / 0.1);
-    const double per_decade = friction && decades > 0 ? 3.5 : 1.1;
-    out.iterations += reuses ? std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6)
-                             : std::clamp(3.7 + 1.4 * decades, 2.3, 4.0) + (by.mixed ? 1.5 : 0);
+    double per_decade = 1.1;
+    if (friction && decades > 0) per_decade = 3.5;
+    if (reuses) {
+      out.iterations += std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6);
+    } else {
+      out.iterations += std::clamp(3.7 + 1.4 * decades, 2.3, 4.0) + (by.mixed ? 1.5 : 0);
+    }
     out.again += reuses ? 7 : 0;
     return true;
   };

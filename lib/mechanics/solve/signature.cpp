@@ -37,7 +37,8 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
       const Mat3 frame = contact_frame(shape.normal);
       out[node].held.push_back(frame.col(0));
       if (defects[k].status[i] == ContactStatus::stick) {
-        out[node].held.push_back(frame.col(1)), out[node].held.push_back(frame.col(2));
+        out[node].held.push_back(frame.col(1));
+        out[node].held.push_back(frame.col(2));
       } else {
         const Mat3 along = Mat3::Identity() - shape.normal * shape.normal.transpose();
         out[node].turning +=
@@ -119,20 +120,20 @@ Signature Statics::signature_with_contact() {
                       (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
   if (recent && factor_.kind() == TangentFactor::Kind::whole && contact.factored(status)) return {};
   need_tangent();
-  const std::vector<Vec3> c = indenters(now_.t, now_.travel),
-                          c_start = indenters(before_.t, before_.travel);
+  const std::vector<Vec3> c = indenters(now_.t, now_.travel);
+  const std::vector<Vec3> c_start = indenters(before_.t, before_.travel);
   const std::vector<double> values = contact.constrained(
       {contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_}, equilibrium_.K(), status);
   const TangentFactor::Counts needed = factor_.counts();
   {
     const Stopwatch watch(cost_.factor);
-    factored_at_ = u_, factor_serves_ = false;
+    factored_at_ = u_;
+    factor_serves_ = false;
     factor_.factorize_with_contact(values);
   }
   factor_.uncount(needed);
-  return factor_.kind() == TangentFactor::Kind::whole
-             ? Signature{}
-             : Signature{factor_.linear().negative_pivots(values), 0};
+  if (factor_.kind() == TangentFactor::Kind::whole) return Signature{};
+  return Signature{factor_.linear().negative_pivots(values), 0};
 }
 
 Signature Statics::signature() {
@@ -157,9 +158,11 @@ Signature Statics::signature() {
       for (int node = 0; node < equilibrium_.mesh().n_nodes(); ++node) {
         int row[3];
         bool is_free[3], candidate = false;
-        for (int j = 0; j < 3; ++j)
-          row[j] = factor_.last_of(3 * node + j), is_free[j] = row[j] >= 0,
+        for (int j = 0; j < 3; ++j) {
+          row[j] = factor_.last_of(3 * node + j);
+          is_free[j] = row[j] >= 0;
           candidate = candidate || is_free[j];
+        }
         if (!candidate) continue;
         const MatX basis = left_of(contacts[node], is_free);
         for (int i = 0; i < 3; ++i)

@@ -26,18 +26,19 @@ void StateTangent::take_candidates() {
   const auto defects = statics_.defects();
   for (std::size_t k = 0; k < statics_.contacts_.size(); ++k) {
     const RigidContact& contact = statics_.contacts_[k];
-    const Vec3 c = indenter_displacement(contact, now.t, now.travel),
-               c0 = indenter_displacement(contact, before.t, before.travel);
+    const Vec3 c = indenter_displacement(contact, now.t, now.travel);
+    const Vec3 c0 = indenter_displacement(contact, before.t, before.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const ContactStatus status = defects[k].status[i];
       if (status == ContactStatus::open && !factor_.with_springs()) continue;
       const int node = contact.nodes[i];
-      const Vec3 x = X[node] + now.u.segment<3>(3 * node),
-                 x0 = X[node] + statics_.u_start_[k].segment<3>(3 * node);
+      const Vec3 x = X[node] + now.u.segment<3>(3 * node);
+      const Vec3 x0 = X[node] + statics_.u_start_[k].segment<3>(3 * node);
       Near n{k, i, linearise(contact, x, x0, c, c0, now.r[k][i]), {}, Vec3::Zero()};
       n.r = n.law.frame.transpose() * now.r[k][i];
       slip_.push_back(n.law.q.tail<2>().norm());
-      near_.push_back(n), status_.push_back(status);
+      near_.push_back(n);
+      status_.push_back(status);
       pushed_ =
           pushed_ || (static_cast<int>(k) == statics_.controlled_ && status != ContactStatus::open);
     }
@@ -86,7 +87,8 @@ StateTangent::Rows StateTangent::rows_of(std::size_t p, double typical) const {
 }
 
 void StateTangent::take_rows() {
-  const auto m = static_cast<Eigen::Index>(near_.size()), n = 3 * m + (pushed_ ? 1 : 0);
+  const auto m = static_cast<Eigen::Index>(near_.size());
+  const auto n = 3 * m + (pushed_ ? 1 : 0);
   const double typical = std::max(c_.W.diagonal().sum() / static_cast<double>(3 * m),
                                   std::numeric_limits<double>::min());
   MatX M = MatX::Zero(n, n);
@@ -106,7 +108,8 @@ void StateTangent::take_rows() {
     typical_.push_back(typical);
     if (!pushed_) continue;
     const Vec3 along = c_.along.segment<3>(3 * p);
-    const Mat3 springs = c_.springs.empty() ? Mat3(Mat3::Zero()) : c_.springs[q];
+    Mat3 springs = Mat3::Zero();
+    if (!c_.springs.empty()) springs = c_.springs[q];
     M.block<3, 1>(3 * p, 3 * m) = (rows.r * (c_.E[q] - springs) - rows.x * c_.T[q]) * along;
     if (c_.start_moves.size() > 0)
       M.block<3, 1>(3 * p, 3 * m) -= rows.x * c_.start_moves.segment<3>(3 * p);
@@ -144,8 +147,8 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
     const RigidContact& contact = statics_.contacts_[n.contact];
     if (contact.mu == 0 || status_[p] == ContactStatus::open) continue;
     const int node = contact.nodes[n.candidate];
-    const Vec3 d_u0 = before.u.segment<3>(3 * node),
-               d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
+    const Vec3 d_u0 = before.u.segment<3>(3 * node);
+    const Vec3 d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
     const Vec3 d_c0 =
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
@@ -175,7 +178,8 @@ VecX StateTangent::right_hand_side(const ParameterChange& change,
     const auto row = 3 * static_cast<Eigen::Index>(p);
     h.segment<3>(row) -= rows_[p].x * history[p] +
                          (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
-    const double d_mu = change.mu.empty() ? 0 : change.mu[n.contact];
+    double d_mu = 0;
+    if (!change.mu.empty()) d_mu = change.mu[n.contact];
     if (d_mu == 0 || status_[p] != ContactStatus::slip) continue;
     const Eigen::Vector2d s = -n.r.tail<2>().normalized();
     h.segment<2>(row + 1) -= rows_[p].r(1, 1) * d_mu * n.r[0] * s;
@@ -190,13 +194,15 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
   Change out;
   if (near_.empty()) {
     out.move = linear.solve(rhs);
-    return out.move.allFinite() ? std::optional(out) : std::nullopt;
+    if (out.move.allFinite()) return std::optional(out);
+    return std::nullopt;
   }
   const bool halves = factor.kind() == TangentFactor::Kind::whole;
   LinearSolver::Half half;
   VecX last(static_cast<Eigen::Index>(factor.last().size()));
   if (halves) {
-    half = linear.start(rhs), last = half.last;
+    half = linear.start(rhs);
+    last = half.last;
   } else {
     const VecX all = linear.solve(rhs);
     for (Eigen::Index i = 0; i < last.size(); ++i)
@@ -214,7 +220,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
   const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
   out.s = answer.head(d.size());
-  out.travel = pushed_ ? answer[d.size()] : 0;
+  out.travel = 0;
+  if (pushed_) out.travel = answer[d.size()];
   out.d = d + c_.W * out.s;
   const VecX force = c_.B * out.s;
   if (halves) {
@@ -225,7 +232,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
       all[factor.last()[i]] += force[static_cast<Eigen::Index>(i)];
     out.move = linear.solve(all);
   }
-  return out.move.allFinite() ? std::optional(out) : std::nullopt;
+  if (out.move.allFinite()) return std::optional(out);
+  return std::nullopt;
 }
 
 void StateTangent::add(const Change& change, StateDerivative& to) const {
@@ -280,9 +288,10 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
   StateDerivative out = of_rest();
   if (change.prescribed.size() > 0) out.u = change.prescribed;
   const VecX f = -on_free_rows(change);
-  VecX rhs = f,
-       h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
-  double size = rhs.norm(), last = std::numeric_limits<double>::infinity();
+  VecX rhs = f;
+  VecX h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
+  double size = rhs.norm();
+  double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {
     const auto next = solve(rhs, h);
     if (!next) return std::nullopt;

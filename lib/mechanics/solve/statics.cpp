@@ -37,7 +37,8 @@ Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
   now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
   before_ = now_;
-  u_ = now_.u, r_ = r_next_ = now_.r;
+  u_ = now_.u;
+  r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
 }
 
@@ -49,19 +50,30 @@ Statics::Cost Statics::cost() const {
 
 void Statics::restore(const BodyState& accepted, const BodyState* before) {
   now_ = accepted;
-  before_ = before ? *before : accepted;
+  if (before) {
+    before_ = *before;
+  } else {
+    before_ = accepted;
+  }
   K_current_ = factor_serves_ = again_ = of_accepted_ = false;
-  t_ = now_.t, u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
+  t_ = now_.t;
+  u_ = now_.u;
+  r_ = r_next_ = now_.r;
+  travel_ = now_.travel;
   equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
   if (!bonds_.none()) begin_bonds();
 }
 
 void Statics::begin(double t) {
-  t_ = t, K_current_ = again_ = unsettled_ = false, extrapolated_ = 0;
+  t_ = t;
+  K_current_ = again_ = unsettled_ = false;
+  extrapolated_ = 0;
   factor_serves_ = std::exchange(of_accepted_, false);
   factor_.begin_increment();
-  u_ = now_.u, r_ = r_next_ = now_.r, travel_ = now_.travel;
+  u_ = now_.u;
+  r_ = r_next_ = now_.r;
+  travel_ = now_.travel;
   u_start_.assign(contacts_.size(), now_.u);
   if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
@@ -92,7 +104,8 @@ void Statics::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
-  u_ += step, extrapolated_ = s;
+  u_ += step;
+  extrapolated_ = s;
   travel_ += s * (now_.travel - before_.travel);
 }
 
@@ -248,8 +261,10 @@ bool Statics::force_is_given() const {
   Vec3 sum = Vec3::Zero();
   double size = control.force.at(t_);
   const double given = size;
-  for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)])
-    sum += r, size = std::max(size, r.norm());
+  for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)]) {
+    sum += r;
+    size = std::max(size, r.norm());
+  }
   return std::abs(sum.dot(control.along) - given) <= options_.law_tolerance * size;
 }
 
@@ -261,11 +276,13 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   out.admissible = equilibrium_.assemble(u, with_tangent, &du);
   K_current_ = with_tangent;
   if (!out.admissible) {
-    out.missing =
-        equilibrium_.J_min() > 0
-            ? "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
-              "of the step is too far away"
-            : "an element is turned inside out";
+    if (equilibrium_.J_min() > 0) {
+      out.missing =
+          "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
+          "of the step is too far away";
+    } else {
+      out.missing = "an element is turned inside out";
+    }
     return out;
   }
   if (!bonds_.none()) bonds_.evaluate(equilibrium_.mesh().X, u, indenters(t_, travel_));
@@ -311,13 +328,13 @@ void Statics::moved(const VecX& du, double step) {
     equilibrium_.predict_pressures(du, step, again_);
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const Vec3 c = indenter_displacement(contacts_[k], t_, travel_),
-               dc = indenter_displacement(contacts_[k], t_, travel_ + step * travel_next_) - c;
+    const Vec3 c = indenter_displacement(contacts_[k], t_, travel_);
+    const Vec3 dc = indenter_displacement(contacts_[k], t_, travel_ + step * travel_next_) - c;
     for (std::size_t i = 0; i < r_[k].size(); ++i) {
       if (r_next_[k][i].isZero(0) && r_[k][i].isZero(0)) continue;
       const int node = contacts_[k].nodes[i];
-      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c,
-                 moved_x = x + step * du.segment<3>(3 * node) - dc;
+      const Vec3 x = X[node] + u_.segment<3>(3 * node) - c;
+      const Vec3 moved_x = x + step * du.segment<3>(3 * node) - dc;
       const Vec3 r = step == 1 ? r_next_[k][i] : Vec3(r_[k][i] + step * (r_next_[k][i] - r_[k][i]));
       r_[k][i] = turn_with_normal(r, shape_at(contacts_[k].shape, x).normal,
                                   shape_at(contacts_[k].shape, moved_x).normal);
@@ -343,7 +360,8 @@ Problem Statics::problem() {
     };
     // bonds that let go solve several times within an increment, and only the first time with what
     // the state before left
-    p.price = price(), p.begins_again = factor_serves_ && bonds_.none();
+    p.price = price();
+    p.begins_again = factor_serves_ && bonds_.none();
   }
   p.admissible = [this](const VecX& u) {
     return admissible(u);
@@ -366,8 +384,8 @@ std::optional<std::string> Statics::edge_passed() const {
 
 std::vector<ContactDefect> Statics::defects() const {
   const bool accepted = now_.t == t_;
-  const double t0 = accepted ? before_.t : now_.t,
-               travel0 = accepted ? before_.travel : now_.travel;
+  const double t0 = accepted ? before_.t : now_.t;
+  const double travel0 = accepted ? before_.travel : now_.travel;
   std::vector<ContactDefect> out;
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k],

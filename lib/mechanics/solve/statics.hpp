@@ -79,7 +79,8 @@ class Statics {
   double stored() const;                         // in body and bonds, of the trial
   double work_of_loads(const VecX& from) const;  // on the way to the trial, as they are now
   void jumped(double work, double released) {
-    jump_.work_of_jumps = work, jump_.released = released;
+    jump_.work_of_jumps = work;
+    jump_.released = released;
   }
   double
   time_error();   // of the trial, once it is in equilibrium; before accept() of a viscous body
@@ -96,7 +97,8 @@ class Statics {
       const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
   const RigidContact* controlled() const {
-    return controlled_ >= 0 ? &contacts_[static_cast<std::size_t>(controlled_)] : nullptr;
+    if (controlled_ >= 0) return &contacts_[static_cast<std::size_t>(controlled_)];
+    return nullptr;
   }
   // Of the accepted state, right after accept(). The last factor serves where it was made within a
   // fiftieth of the step's movement from there; otherwise K is factorized once more. Not where
@@ -125,7 +127,8 @@ class Statics {
   bool contact_in_tangent() const { return factor_.in_tangent() != nullptr; }
   bool iterative() const { return factor_.iterative(); }
   const MixedSolver* mixed() const {
-    return factor_.mixed() ? &factor_.mixed()->solver() : nullptr;
+    if (factor_.mixed()) return &factor_.mixed()->solver();
+    return nullptr;
   }
   bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 

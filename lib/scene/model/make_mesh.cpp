@@ -46,11 +46,15 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
   double low = origin[1];
   for (std::size_t b = 0; b < config.bodies.size(); ++b) {
     mesh.bodies.push_back(config.bodies[b].name);
-    const double high = low + config.bodies[b].thickness, slack = 1e-9 * size[1];
+    const double high = low + config.bodies[b].thickness;
+    const double slack = 1e-9 * size[1];
     for (int e = 0; e < mesh.n_cells(); ++e) {
-      double least = mesh.X[mesh.cell(e)[0]][1], most = least;
-      for (int n : mesh.cell(e))
-        least = std::min(least, mesh.X[n][1]), most = std::max(most, mesh.X[n][1]);
+      double least = mesh.X[mesh.cell(e)[0]][1];
+      double most = least;
+      for (int n : mesh.cell(e)) {
+        least = std::min(least, mesh.X[n][1]);
+        most = std::max(most, mesh.X[n][1]);
+      }
       if (least > low - slack && most < high + slack) mesh.body[e] = static_cast<int>(b);
       if (least < high - slack && most > high + slack)
         refuse(fmt::format("bodies[{}].thickness", b),
@@ -164,9 +168,10 @@ MadeMesh made(const MeshConfig& config) {
     const auto [origin, size] = box(config.geometry);
     if (section)
       make_section(mesh, *section);
-    else
-      number_in_order(mesh),
-          make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
+    else {
+      number_in_order(mesh);
+      make_symmetric(mesh, Vec3(origin[0] + 0.5 * size[0], 0, origin[2] + 0.5 * size[2]));
+    }
   }
   if (!config.cuts.empty()) mesh = with_cuts(std::move(mesh), config.cuts);
   name_points(mesh, config.positions());
@@ -188,8 +193,10 @@ MadeMesh made(const MeshConfig& config) {
       refuse("sets." + name, "found the name of a set of the file", "another name", "");
   name_sets(mesh, config);
   if (mesh.section) {
-    for (const char* side : {"z_min", "z_max"})
-      mesh.node_sets.erase(side), mesh.facet_sets.erase(side);
+    for (const char* side : {"z_min", "z_max"}) {
+      mesh.node_sets.erase(side);
+      mesh.facet_sets.erase(side);
+    }
     for (auto& [name, nodes] : mesh.node_sets) nodes = in_front(mesh, nodes);
   }
   return result;

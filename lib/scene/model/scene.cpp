@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/base/text.hpp"
 #include "mechanics/contact/surface_check.hpp"
 #include "mechanics/contact/touch.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
@@ -42,12 +43,13 @@ class Nodes {
     if (found != mesh_.node_sets.end() && !found->second.empty()) return found->second;
     std::vector<std::string> known;
     std::string list;
-    for (const auto& [name, members] : mesh_.node_sets)
-      known.push_back(name), list += (list.empty() ? "" : ", ") + name;
+    for (const auto& [name, members] : mesh_.node_sets) {
+      known.push_back(name);
+      append(list, ", ", name);
+    }
     const std::string near = nearest(set, known);
     errors.push_back({where_(key), key, fmt::format("found \"{}\"", set),
-                      "a node set of the mesh: " + list,
-                      near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                      "a node set of the mesh: " + list, did_you_mean(near)});
     return none;
   }
 
@@ -66,7 +68,8 @@ class Nodes {
            "one value for each direction of a node", ""});
       return false;
     }
-    named_by_[dof] = key, to_[dof] = told;
+    named_by_[dof] = key;
+    to_[dof] = told;
     prescribed.push_back(told);
     return true;
   }
@@ -76,9 +79,10 @@ class Nodes {
 
  private:
   static std::string words(const Prescribed& told, bool with_name = true) {
-    const std::string name = with_name ? fmt::format("{} = ", "xyz"[told.dof % 3]) : "";
-    return told.turn ? fmt::format("{}{} mm and a rotation", name, told.value)
-                     : fmt::format("{}{} mm", name, told.value);
+    std::string name;
+    if (with_name) name = fmt::format("{} = ", "xyz"[told.dof % 3]);
+    if (told.turn) return fmt::format("{}{} mm and a rotation", name, told.value);
+    return fmt::format("{}{} mm", name, told.value);
   }
   const Mesh& mesh_;
   const Find& where_;
@@ -120,20 +124,23 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                    const std::optional<Material>& general, const Find& where,
                    std::vector<Error>& errors) {
   std::string list;
-  for (const std::string& name : mesh.bodies) list += (list.empty() ? "" : ", ") + name;
+  for (const std::string& name : mesh.bodies) append(list, ", ", name);
   for (const auto& [name, body] : config.materials)
     if (std::find(mesh.bodies.begin(), mesh.bodies.end(), name) == mesh.bodies.end()) {
-      const std::string near = nearest(name, mesh.bodies), key = "materials." + name;
+      const std::string near = nearest(name, mesh.bodies);
+      const std::string key = "materials." + name;
       errors.push_back({where(key), key, fmt::format("found \"{}\"", name),
-                        "a body of the mesh: " + list,
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"?", near)});
+                        "a body of the mesh: " + list, did_you_mean(near)});
     }
   if (!errors.empty()) return;
   std::vector<FirstFamily> fields(mesh.bodies.size());
-  bool angles_follow = false, field_follows = false;  // do any bodies take the keys at the top?
+  // do any bodies take the keys at the top?
+  bool angles_follow = false;
+  bool field_follows = false;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const auto named = config.materials.find(mesh.bodies[b]);
-    const BodyConfig own = named == config.materials.end() ? BodyConfig{} : named->second;
+    BodyConfig own;
+    if (named != config.materials.end()) own = named->second;
     const std::string key = "materials." + mesh.bodies[b] + ".";
     if (!own.material && !general) {
       errors.push_back({where("materials"), "materials",
@@ -156,7 +163,7 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field,
                                  material, (own.fibre_field ? key : "") + "fibre_angles", where,
                                  errors);
-    angles_follow = angles_follow || !own.material,
+    angles_follow = angles_follow || !own.material;
     field_follows = field_follows || (follows && !own.fibre_field);
     if (is_viscous(material) && !config.path.seconds)
       errors.push_back(
@@ -253,7 +260,8 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>&
 void turn(Nodes& nodes, const TurnedSet& set, const Mesh& mesh, const std::string& key) {
   for (int node : set.nodes) {
     const AboutLine at = about(set.axis, mesh.X[node]);
-    const Vec3 across = at.rho * at.outward, along = cross(set.axis.along, across);
+    const Vec3 across = at.rho * at.outward;
+    const Vec3 along = cross(set.axis.along, across);
     for (int k = 0; k < 3; ++k)
       if (!nodes.prescribe(node, k, set.to[k], key, Turn{set.angle, along[k], across[k]})) return;
   }
@@ -412,8 +420,11 @@ void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const M
                  nodes);
     if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
-    rigid.nodes = contact.on.empty() ? nodes_in_reach(rigid, mesh, nodes.prescribed)
-                                     : nodes.of_set(contact.on, key + ".on");
+    if (contact.on.empty()) {
+      rigid.nodes = nodes_in_reach(rigid, mesh, nodes.prescribed);
+    } else {
+      rigid.nodes = nodes.of_set(contact.on, key + ".on");
+    }
     std::erase_if(rigid.nodes, [&](int node) {
       return hanging_at(mesh.hanging, node) != nullptr;
     });  // what they hang on touches
@@ -463,7 +474,8 @@ std::vector<TurnedSet> turned_sets(const SolveConfig& config, const Mesh& mesh) 
     for (int node : set->second) places.push_back(mesh.X[node]);
     const RotationConfig& turn = *load.rotation;
     TurnedSet& out = turned.emplace_back();
-    out.name = load.on, out.nodes = set->second,
+    out.name = load.on;
+    out.nodes = set->second;
     out.angle = radians(turn.angle, config.path.seconds);
     out.axis = {turn.through ? vec(*turn.through) : bounding_box(places).middle(),
                 direction(turn.axis)};

@@ -173,7 +173,8 @@ std::string difference(const RigidContact& a, const RigidContact& b, const MeshI
   const bool all = a.nodes.size() == b.nodes.size() &&
                    std::all_of(a.nodes.begin(), a.nodes.end(),
                                [&](int node) { return candidate[g.node[node]]; });
-  return all ? "" : fmt::format("the nodes that may touch \"{}\"", a.name);
+  if (all) return "";
+  return fmt::format("the nodes that may touch \"{}\"", a.name);
 }
 
 // Each indenter is the image of one other, and none of two: of itself where it can be.
@@ -189,8 +190,12 @@ std::string match_contacts(const MeshImage& g, const Isometry& op, const Scene& 
     if (own.empty() && !matched[i]) image[i] = i;
     for (int j = 0; j < n && image[i] < 0; ++j)
       if (j != i && !matched[j] && difference(all[i], others[j], g, op).empty()) image[i] = j;
-    if (image[i] < 0)
-      return own.empty() ? fmt::format("the number of indenters like \"{}\"", all[i].name) : own;
+    if (image[i] < 0) {
+      if (own.empty()) {
+        return fmt::format("the number of indenters like \"{}\"", all[i].name);
+      }
+      return own;
+    }
     matched[image[i]] = 1;
   }
   return "";

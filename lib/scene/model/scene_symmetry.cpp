@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/base/text.hpp"
 #include "mechanics/element/solid.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/mesh/mirror_image.hpp"
@@ -62,7 +63,10 @@ class Found {
       : mesh_(mesh), scene_(scene), varied_(varied), centre_(centre) {}
   const Generator* operator()(const Operation& op) {
     const auto known = known_.find(op.name);
-    if (known != known_.end()) return known->second ? &*known->second : nullptr;
+    if (known != known_.end()) {
+      if (known->second) return &*known->second;
+      return nullptr;
+    }
     std::optional<Generator>& found = known_[op.name];
     auto g = find_symmetry(mesh_, op.signs, centre_);
     const auto image_in = [&](const Scene& scene) {
@@ -73,11 +77,11 @@ class Found {
       if (const SceneImage other = image_in(*varied_); !other.broken.empty())
         image.broken = other.broken + ", where the numbers of `sensitivity` are others";
     if (!image.broken.empty())
-      breaks_ += (breaks_.empty() ? "" : "; ") +
-                 fmt::format("{} is not its own image: {}", op.name, image.broken);
+      append(breaks_, "; ", fmt::format("{} is not its own image: {}", op.name, image.broken));
     else
       found = Generator{op, std::move(*g), std::move(image.contact)};
-    return found ? &*found : nullptr;
+    if (found) return &*found;
+    return nullptr;
   }
   const std::string& breaks() const { return breaks_; }
 
@@ -122,7 +126,7 @@ std::optional<ReducedScene> ReducedScene::find(
     std::vector<Symmetry> of_mesh;
     for (const Generator* g : generators) {
       of_mesh.push_back(g->mesh);
-      r.words_ += (r.words_.empty() ? "" : " and ") + std::string(g->operation.name);
+      append(r.words_, " and ", std::string(g->operation.name));
       for (int k = 0; k < 3; ++k)
         if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
@@ -142,7 +146,8 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
                              const std::vector<std::vector<int>>& contacts) {
   quotient_ = quotient(mesh, generators);
   breaking_ties_ = symmetry_breaking_ties(mesh, generators, quotient_);
-  scene_.formulation = scene.formulation, scene_.materials = scene.materials,
+  scene_.formulation = scene.formulation;
+  scene_.materials = scene.materials;
   scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(quotient_.cell);
   take_supports(scene);
@@ -159,8 +164,10 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
                Mat3::Identity(), 0};
     const int at = quotient_.node[kept.node];
     for (std::size_t h = 0; h < group.size(); ++h)
-      if (group[h].node[node] == at && contacts[h][contact] < kept.contact)
-        kept.contact = contacts[h][contact], kept.T = group[h].signs.asDiagonal();
+      if (group[h].node[node] == at && contacts[h][contact] < kept.contact) {
+        kept.contact = contacts[h][contact];
+        kept.T = group[h].signs.asDiagonal();
+      }
     int in_place = 0;
     Vec3 allowed =
         Vec3::Ones();  // what leaves the pair in place and changes a sign forbids that direction
@@ -170,7 +177,7 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
         for (int k = 0; k < 3; ++k)
           if (group[h].signs[k] < 0) allowed[k] = 0;
       }
-    kept.T = kept.T * allowed.asDiagonal(),
+    kept.T = kept.T * allowed.asDiagonal();
     kept.share = static_cast<double>(group.size()) / in_place;
     return kept;
   });
@@ -224,7 +231,8 @@ void ReducedScene::take_contacts(const Scene& scene,
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     const RigidContact& whole = contacts_[c];
     RigidContact part = whole;
-    part.nodes.clear(), part.area.clear();
+    part.nodes.clear();
+    part.area.clear();
     std::vector<double> share;
     std::vector<std::array<int, 2>> origin;
     for (int i = 0; i < static_cast<int>(whole.nodes.size()); ++i) {
@@ -232,18 +240,22 @@ void ReducedScene::take_contacts(const Scene& scene,
       if (kept.contact != c || quotient_.node[kept.node] != whole.nodes[i]) continue;
       index[{c, kept.node}] = {
           static_cast<int>(scene_.contacts.size()), static_cast<int>(part.nodes.size()), {}};
-      part.nodes.push_back(kept.node), share.push_back(kept.share), origin.push_back({c, i});
+      part.nodes.push_back(kept.node);
+      share.push_back(kept.share);
+      origin.push_back({c, i});
       if (whole.adhesion) part.area.push_back(kept.share * whole.area[i]);
     }
     if (part.nodes.empty() && !whole.nodes.empty()) continue;  // another indenter stands for it
     scene_.contacts.push_back(std::move(part));
-    candidate_share_.push_back(std::move(share)), origin_.push_back(std::move(origin));
+    candidate_share_.push_back(std::move(share));
+    origin_.push_back(std::move(origin));
   }
   for (int c = 0; c < static_cast<int>(contacts_.size()); ++c) {
     std::vector<CandidateImage>& images = candidate_.emplace_back();
     for (int node : contacts_[c].nodes) {
       const Touch kept = stands_for(c, node);
-      images.push_back(index.at({kept.contact, kept.node})), images.back().T = kept.T;
+      images.push_back(index.at({kept.contact, kept.node}));
+      images.back().T = kept.T;
     }
   }
 }
@@ -253,7 +265,8 @@ void ReducedScene::take_contacts(const Scene& scene,
 void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene,
                                         const std::vector<Symmetry>& group) {
   for (int e = 0; e < mesh.n_cells(); ++e) {
-    const auto own = scene.directions.of(e), kept = scene_.directions.of(quotient_.cell_image[e]);
+    const auto own = scene.directions.of(e);
+    const auto kept = scene_.directions.of(quotient_.cell_image[e]);
     if (own.empty()) continue;
     std::optional<Vec3> turned;
     bool same = false;
@@ -271,15 +284,18 @@ ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
   ReducedScene r;
   r.words_ = section_words(mesh);
   Quotient& q = r.quotient_;
-  q.mesh = mesh, q.tie = q.node_image = section_ties(mesh);
-  q.node.resize(mesh.X.size()), q.cell.resize(mesh.n_cells());
+  q.mesh = mesh;
+  q.tie = q.node_image = section_ties(mesh);
+  q.node.resize(mesh.X.size());
+  q.cell.resize(mesh.n_cells());
   std::iota(q.node.begin(), q.node.end(), 0);
   std::iota(q.cell.begin(), q.cell.end(), 0);
   q.cell_image = q.cell;
   q.cell_share.assign(q.cell.size(), langer::cell_share(*mesh.section));
   q.node_share.assign(q.node.size(), 0);
   for (int i = 0; i < n_front(mesh); ++i) q.node_share[i] = 1;
-  r.scene_ = scene, r.scene_.contacts.clear();
+  r.scene_ = scene;
+  r.scene_.contacts.clear();
   std::vector<Prescribed> prescribed;
   for (const Prescribed& p : scene.dofs.prescribed)
     if (q.tie[p.dof / 3].T(p.dof % 3, p.dof % 3) != 0) prescribed.push_back(p);
@@ -288,13 +304,18 @@ ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
     const Image& image = q.node_image[node];
     return Touch{contact, image.of, image.T, q.node_share[image.of]};
   });
-  r.kept_directions_ = mesh.section->of == SectionOf::axisymmetric ? Vec3(0, 1, 0) : Vec3(1, 1, 0);
+  if (mesh.section->of == SectionOf::axisymmetric) {
+    r.kept_directions_ = Vec3(0, 1, 0);
+  } else {
+    r.kept_directions_ = Vec3(1, 1, 0);
+  }
   return r;
 }
 
 StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   StepRecord record = reduced;
-  record.u.clear(), record.reaction.clear();
+  record.u.clear();
+  record.reaction.clear();
   const bool section = quotient_.mesh.section.has_value();
   for (const Image& image : quotient_.node_image) {
     const bool behind =
@@ -345,8 +366,11 @@ void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) 
     for (int k = 0; k < 3; ++k) {
       const std::string name = "force_" + contacts_[c].name + "_" + "xyz"[k];
       // on a section radial forces of the whole circle add up to nothing
-      record.scalars[name] =
-          quotient_.mesh.section ? kept_directions_[k] * reduced.scalars.at(name) : force[k];
+      if (quotient_.mesh.section) {
+        record.scalars[name] = kept_directions_[k] * reduced.scalars.at(name);
+      } else {
+        record.scalars[name] = force[k];
+      }
     }
   }
 }

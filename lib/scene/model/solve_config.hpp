@@ -116,9 +116,10 @@ struct ContactConfig {
       found.push_back(std::move(complaint));
     for (std::size_t i = 0; control && i < motion.size(); ++i) {
       double dot = 0, size = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        dot += motion[i].to[k] * control->along[k],
-            size += std::abs(motion[i].to[k] * control->along[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        dot += motion[i].to[k] * control->along[k];
+        size += std::abs(motion[i].to[k] * control->along[k]);
+      }
       if (std::abs(dot) > 1e-12 * size)
         found.push_back({"motion", "moves the indenter along the direction of its force",
                          "movements across it",
@@ -355,8 +356,8 @@ struct SolveConfig {
     if (accuracy && fidelity)
       found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
     const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
-    const std::string other_mesh =
-        mesh ? "a mesh whose cells follow from no numbers of this config" : "no mesh here";
+    std::string other_mesh = "no mesh here";
+    if (mesh) other_mesh = "a mesh whose cells follow from no numbers of this config";
     const char* laid_out =
         "the key mesh with geometry: {block: ...}, section, indented_block or indented_disc";
     if (estimate == EstimateBy::refinement && !numbers)
@@ -390,8 +391,8 @@ struct SolveConfig {
            "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
     complain_of_cuts(found);
     complain_of_seconds(found);
-    const bool estimates = estimate && *estimate != EstimateBy::none,
-               refines = estimate == EstimateBy::refinement;
+    const bool estimates = estimate && *estimate != EstimateBy::none;
+    const bool refines = estimate == EstimateBy::refinement;
     if (const char* key = accuracy    ? "accuracy"
                           : fidelity  ? "fidelity"
                           : estimates ? "estimate"

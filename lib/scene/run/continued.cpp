@@ -17,7 +17,8 @@ double relative(const SolveConfig& config) {
 Identity with_steps_hash(Identity identity, const SolveConfig& config) {
   SolveConfig steps = config;
   const SolveConfig usual;
-  steps.threads = usual.threads, steps.blas_threads = usual.blas_threads,
+  steps.threads = usual.threads;
+  steps.blas_threads = usual.blas_threads;
   steps.solver = usual.solver;
   steps.path.smallest = usual.path.smallest;
   steps.path.longest_attempt = usual.path.longest_attempt;

@@ -16,16 +16,16 @@
 namespace langer {
 
 std::string memory_in_words(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes)
-                     : fmt::format("{:.1f} GB", 1e-9 * bytes);
+  if (bytes < 1e9) return fmt::format("{:.0f} MB", 1e-6 * bytes);
+  return fmt::format("{:.1f} GB", 1e-9 * bytes);
 }
 
 std::string duration_in_words(double seconds) {
   if (seconds < 1) return fmt::format("{:.2g} s", seconds);
   if (seconds < 10) return fmt::format("{:.1f} s", seconds);
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
-  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60)
-                        : fmt::format("{:.1f} h", seconds / 3600);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
 }
 
 void need_memory(const Statics& statics, const Statics* beside, int threads) {
@@ -33,11 +33,12 @@ void need_memory(const Statics& statics, const Statics* beside, int threads) {
   // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it
   // cannot have it
   constexpr double blas = 135e6;
-  const double factor = statics.size().factor_bytes, mapped = factor + blas * threads;
+  const double factor = statics.size().factor_bytes;
+  const double mapped = factor + blas * threads;
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
-  const double wanted = factor <= free_memory() ? mapped : factor,
-               free = std::min(free_memory(), free_address());
+  const double wanted = factor <= free_memory() ? mapped : factor;
+  const double free = std::min(free_memory(), free_address());
   throw Failure(
       Exit::config,
       Error{
@@ -82,7 +83,8 @@ MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck wh
   int n_examined = 0;
   if (examined && when == StabilityCheck::each_step) n_examined = steps;
   if (examined && when == StabilityCheck::last) n_examined = 1;
-  const LinearSolver::Size size = examined ? examined->size() : LinearSolver::Size{};
+  LinearSolver::Size size;
+  if (examined) size = examined->size();
   return forecast_of_mesh(*mesh, size, state_of(*whole, run.scene).u, steps, n_examined);
 }
 

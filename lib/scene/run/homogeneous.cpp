@@ -140,19 +140,26 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   for (int a = 0; a < 8; ++a) {
     Vec3 X;
     for (int i = 0; i < 3; ++i) X[i] = hull.bound(i, Hex8::corner[a][i]);
-    mesh_.X.push_back(X), mesh_.connectivity.push_back(a);
+    mesh_.X.push_back(X);
+    mesh_.connectivity.push_back(a);
     for (int n = 0; n < mesh.n_nodes() && corner_node_[a] < 0; ++n)
       if ((mesh.X[n] - X).norm() <= same * (hull.high - hull.low).norm()) corner_node_[a] = n;
     if (corner_node_[a] < 0) return false;
   }
-  mesh_.body = {0}, mesh_.bodies = {"all"}, mesh_.frames = {Mat3::Identity()};
+  mesh_.body = {0};
+  mesh_.bodies = {"all"};
+  mesh_.frames = {Mat3::Identity()};
   for (const Vec3& X : mesh.X) {
     std::array<double, 8>& N = N_.emplace_back();
     for (int a = 0; a < 8; ++a) {
       N[a] = 1;
       for (int i = 0; i < 3; ++i) {
         const double s = (X[i] - hull.low[i]) / (hull.high[i] - hull.low[i]);
-        N[a] *= Hex8::corner[a][i] > 0 ? s : 1 - s;
+        if (Hex8::corner[a][i] > 0) {
+          N[a] *= s;
+        } else {
+          N[a] *= 1 - s;
+        }
       }
     }
   }
@@ -163,7 +170,8 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
                             1e-9 * shear_modulus(law)) *
                    size.prod() / size.minCoeff();
   scene_.formulation = usual_formulation(CellType::hex8);
-  scene_.materials = scene.materials, scene_.stops = scene.stops;
+  scene_.materials = scene.materials;
+  scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(std::array{0});
   scene_.dofs = number_dofs(8, *corners).dofs;
   return scene_.dofs.n_free() > 0;  // nothing to solve where every corner is told where to go
@@ -193,8 +201,10 @@ bool HomogeneousScene::balance(const VecX& u, double t) const {
   if (!whole_->assemble(u, false)) return false;
   if (!anew) return true;
   if (u_.size() == 0) u_ = VecX::Zero(u.size());
-  whole_->end_increment(u), whole_->accept_increment(u_, u);
-  t_ = t, u_ = u;
+  whole_->end_increment(u);
+  whole_->accept_increment(u_, u);
+  t_ = t;
+  u_ = u;
   return true;
 }
 
@@ -217,20 +227,27 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
   if (!balance(u, one.t)) return std::nullopt;
   const bool loaded = !whole_->loads().empty();
   const VecX f = loaded ? VecX(whole_->f_int() - whole_->f_ext()) : whole_->f_int();
-  double left = 0, reactions = loaded ? whole_->f_ext().squaredNorm() : 0;
+  double left = 0;
+  double reactions = 0;
+  if (loaded) reactions = whole_->f_ext().squaredNorm();
   for (int dof : whole_->dofs().free) left += f[dof] * f[dof];
   record.reaction.assign(record.u.size(), Vec3::Zero());
   for (const Prescribed& p : whole_->dofs().prescribed) {
     reactions += f[p.dof] * f[p.dof];
     record.reaction[static_cast<std::size_t>(p.dof / 3)][p.dof % 3] = f[p.dof];
   }
-  left = std::sqrt(left), reactions = std::sqrt(reactions);
+  left = std::sqrt(left);
+  reactions = std::sqrt(reactions);
   const double small = 1e-9 * reactions + rounding_of_J_;
   if (!(left <= small + 10 * whole_->rounding_floor()))
     return std::nullopt;  // it deforms otherwise
   if (!(left <= std::max(small, on_mesh(left, reactions, {}).tolerance)))
     return std::nullopt;  // a solution of the mesh is nearer
-  record.residual = reactions > 0 ? left / reactions : left;
+  if (reactions > 0) {
+    record.residual = left / reactions;
+  } else {
+    record.residual = left;
+  }
   for (auto& [name, values] : record.cell_fields)
     values.assign(static_cast<std::size_t>(whole_->mesh().n_cells()), one.cell_fields.at(name)[0]);
   record.scalars["J_min"] = whole_->J_min(), record.scalars["energy"] = whole_->W();
@@ -240,8 +257,10 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
 
 SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveReport report) const {
   Assessment found;
-  found.residual = residual, found.reference = reactions,
-  found.floor = 3 * whole_->rounding_floor();  // as of Statics
+  // as of Statics
+  found.residual = residual;
+  found.reference = reactions;
+  found.floor = 3 * whole_->rounding_floor();
   const double least_force = scale_of(*whole_).least_force;
   std::visit(
       [&](const auto& asked) {

@@ -40,11 +40,15 @@ Reduction::Kind Reduction::kind() const {
 }
 
 const Mesh& Reduction::mesh() const {
-  return point_ ? point_->mesh() : part_ ? part_->mesh() : mesh_;
+  if (point_) return point_->mesh();
+  if (part_) return part_->mesh();
+  return mesh_;
 }
 
 const Scene& Reduction::scene() const {
-  return point_ ? point_->scene() : part_ ? part_->scene() : scene_;
+  if (point_) return point_->scene();
+  if (part_) return part_->scene();
+  return scene_;
 }
 
 Assembler Reduction::assembler(std::optional<Division> division) const {
@@ -57,7 +61,10 @@ Assembler Reduction::assembler(std::optional<Division> division) const {
                    threads, Kernel::packets, share, std::move(division), std::move(loads));
 }
 
-Solver Reduction::solver(const Solver& asked) const { return point_ ? point_->solver() : asked; }
+Solver Reduction::solver(const Solver& asked) const {
+  if (point_) return point_->solver();
+  return asked;
+}
 
 std::string Reduction::words() const {
   switch (kind()) {
@@ -75,11 +82,13 @@ std::string Reduction::words() const {
 
 std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
   if (point_) return point_->whole(of_part);
-  return part_ ? part_->whole(of_part) : of_part;
+  if (part_) return part_->whole(of_part);
+  return of_part;
 }
 
 SolveReport Reduction::report(const SolveReport& of_part, const StepRecord& of_whole) const {
-  return point_ ? point_->report(of_part, of_whole) : of_part;
+  if (point_) return point_->report(of_part, of_whole);
+  return of_part;
 }
 
 std::vector<Dofs> Reduction::symmetry_breaking_dofs() const {
@@ -89,7 +98,10 @@ std::vector<Dofs> Reduction::symmetry_breaking_dofs() const {
 
 const HomogeneousScene* Reduction::point() const { return point_.get(); }
 
-Assembler* Reduction::mesh_of_point() const { return point_ ? &point_->of_mesh() : nullptr; }
+Assembler* Reduction::mesh_of_point() const {
+  if (point_) return &point_->of_mesh();
+  return nullptr;
+}
 
 void Reduction::replay(const StepRecord& of_whole) const {
   if (point_) point_->replay(of_whole);
@@ -97,7 +109,8 @@ void Reduction::replay(const StepRecord& of_whole) const {
 
 BodyState Reduction::reduced(const StepRecord& of_whole) const {
   if (point_) return point_->reduced(of_whole);
-  return part_ ? part_->reduced(of_whole) : state_of(of_whole, scene_);
+  if (part_) return part_->reduced(of_whole);
+  return state_of(of_whole, scene_);
 }
 
 }  // namespace langer

@@ -26,12 +26,14 @@ double force_of(const StepRecord& state, const std::string& contact) {
 
 void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whole,
                     StepForces& forces) {
-  const int front = mesh.section ? n_front(mesh) : mesh.n_nodes();
+  int front = mesh.n_nodes();
+  if (mesh.section) front = n_front(mesh);
   for (const RigidContact& contact : scene.contacts) {
     const std::vector<Vec3>& r = whole.contacts.at(contact.name).r;
     double n = 0;
-    for (std::size_t i = 0; i < r.size(); ++i)
-      n += contact.nodes[i] < front && !r[i].isZero(0) ? 1 : 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      if (contact.nodes[i] < front && !r[i].isZero(0)) ++n;
+    }
     if (n == 0) continue;
     if (scene.contacts.size() > 1) forces.touching["force_" + contact.name] = n;
     const auto [fewest, first] = forces.touching.try_emplace("force", n);
@@ -52,7 +54,8 @@ double between(const std::vector<StepForces>& path, const std::string& name, dou
   for (const StepForces& step : path) {
     const double f = value(step);
     if (t <= step.t) return f0 + (t - t0) / (step.t - t0) * (f - f0);
-    t0 = step.t, f0 = f;
+    t0 = step.t;
+    f0 = f;
   }
   return f0;
 }
