@@ -1,5 +1,9 @@
-// langer-solve: equilibrium along a load path.
+// langer-solve: equilibrium of a body along a load path.
 //   langer-solve indentation.yaml --mesh mesh.h5 --material material.h5 -o solution.h5
+//
+// The stage builds a model from the config, follows the load path and estimates the discretisation
+// error. If the config asks for an accuracy, it repeats the run with a finer model until the
+// estimate meets the request. Several ranks can share a run: rank 0 alone prints and writes.
 #include <csignal>
 
 #include "accuracy/estimate/say_errors.hpp"
@@ -18,124 +22,184 @@
 namespace langer {
 namespace {
 
-using Law = std::optional<Material>;
+using Summaries = std::vector<Summary>;
 
-std::string one_rank(const Job<SolveConfig>& job) {
-  if (ranks()) return why_one_rank(job.config, job.has("mirror") && !job.dry_run);
-  return "";
-}
+// The inputs of the stage, read once for all models that are solved.
+struct Case {
+  Job<SolveConfig> job;
+  std::string mesh_file;             // empty if the config describes the mesh
+  std::optional<Material> material;  // of the bodies for which the config names none
+  StudyRecord study;                 // range of the tests that the material was fitted to
+  ParameterKnowledge parameters;     // covariance of the fitted parameters, if the config asks
+};
 
-void say_alone(const Job<SolveConfig>& job, const std::string& why) {
-  job.say("{} of {} ranks have nothing to do: {}", ranks()->n() - 1, ranks()->n(), why);
-}
-
-// What the other ranks do while rank 0 speaks and writes.
-std::vector<Summary> beside_first(Run& run, bool dry_run, const SolveConfig& config) {
-  if (!run.shared_by()) return {};
-  if (dry_run) {
-    forecast_of(config, run.body, run.statics, run.scene.stops);
-    return {};
+Case read_case(const Job<SolveConfig>& job) {
+  Case input;
+  input.job = job;
+  input.material = job.config.material;
+  std::string material_file;
+  if (job.has("mesh")) input.mesh_file = job.input("mesh");
+  if (job.has("material")) {
+    material_file = job.input("material");
+    input.material = material_of_body(material_file);
   }
-  on_root_rank(run.shared_by(), [] { return true; });
-  run.resume_all();
-  run.follow();
-  return {};
-}
-
-// Nothing where another model is to be solved now.
-std::optional<std::vector<Summary>> solve_by(const Job<SolveConfig>& job, const Law& material,
-                                             const ParameterKnowledge& known, ModelChoice& model) {
-  SolveConfig config = model.config();
-  Run run(model.mesh(), config, material, job.where, model.at_a_point(), one_rank(job).empty());
-  if (ranks() && !ranks()->first()) return beside_first(run, job.dry_run, config);
-  if (!run.why_alone.empty()) say_alone(job, run.why_alone);
-  const double jump = say_scene(job.voice(), run);
-  config.estimate = estimate_of(job.voice(), config, material, job.where, run);
-  RunWatch watch(run, config, job.where,
-                 job.has("material") ? study_from(job.input("material")) : StudyRecord{});
-  if (job.dry_run) return say_forecast(job.voice(), config, material, job.where, run, watch);
-  RecoveredPath recovered(run, config, config.estimate == EstimateBy::recovery);
-  std::string loose;
-  std::optional<Sensitivity> sensitivity;
-  std::optional<Uncertainty> uncertainty;
-  std::optional<Recording> kept;
-  on_root_rank(run.shared_by(), [&] {
-    need_memory(run.statics, watch.of_mesh(), config.threads);
-    loose = held_by_contact(run, job.where);
-    sensitivity.emplace(run, config, job.where);
-    uncertainty.emplace(known, run, *sensitivity);
-    kept.emplace(run, watch, config, job.identity, job.output,
-                 recovered.beside(uncertainty->beside(sensitivity->companion())));
-    return true;
-  });
-  Recording& recording = *kept;
-  run.resume_all();
-  Progress progress(job.voice(), run);
-  const Interruptible at_the_end_of_a_step;
-  std::optional<EndsSoon> steps_are_kept(std::in_place, SIGINT);
-  const RunEnd end = recording.follow(job.voice(), progress, loose);
-  steps_are_kept.reset();
-  if (end.at == RunEnd::At::not_homogeneous) {
-    model.leave_point();
-    return {};
-  }
-  std::optional<EndsSoon> all_is_kept(std::in_place);
-  const PathErrors estimate = say_errors(job.voice(), config, material, job.where, run, end.last,
-                                         recording, recovered, watch.contact_warnings().empty());
-  const bool again = model.another(estimate, run.mesh);
-  if (again && interrupted()) recording.stopped_in_estimate();
-  if (again) return {};
-  all_is_kept.reset();
-  const auto forces = uncertainty->of(end.last);
-  report_forces(job.voice(), known, forces, estimate.at_end);
-  const auto said =
-      joined({sensitivity->summary(end.last), summary_of(forces), summary_of(estimate.at_end),
-              model.summary(estimate.at_end), watch.contact_summary()});
-  recording.finish(said, histories_of(estimate));
-  progress.finished(end.path, run.statics, recording.seconds());
-  model.need(estimate.at_end, job.output);
-  const std::vector<Summary> of_fibres{{"fibre_jump", jump, "deg"}};
-  return joined(
-      {summary_of(run, end, recording.n_steps()), said, of_fibres, watch.stability_summary()});
-}
-
-std::vector<Summary> solve(const Job<SolveConfig>& given) {
-  Job<SolveConfig> job = given;
-  std::optional<Interruptible> until_first_ends;
-  if (ranks() && !ranks()->first()) until_first_ends.emplace();
-  if (const std::string why = one_rank(job); !why.empty()) {
-    if (!ranks()->first()) return {};
-    say_alone(job, why);
-  }
-  std::string file;
-  if (job.has("material")) file = job.input("material");
-  std::string mesh;
-  if (job.has("mesh")) mesh = job.input("mesh");
-  Law material = job.config.material;
-  if (job.has("material")) material = Law(material_of_body(file));
-  for (const std::string& line : review_lines(job.config, material, job.where)) {
+  for (const std::string& line : review_lines(job.config, input.material, job.where)) {
     job.voice().warn(line);
   }
-  const ParameterKnowledge known = prepare_uncertainty(job.config, file, job.where);
-  if (job.has("mirror") && !job.dry_run &&
-      job.config.sensitivity.empty()) {  // a number of one is another of its image
-    SolveConfig own = job.config;
-    if (!mesh.empty()) own.mesh.reset();  // another mesh is solved
-    const MirrorTask task{own,       material, job.where, job.identity, mesh, job.input("mirror"),
-                          job.output};
-    if (const auto image = take_image(job.voice(), task)) return *image;
+  input.parameters = take_uncertain(input.job.config, material_file, job.where);
+  if (job.has("material")) input.study = study_from(material_file);
+  return input;
+}
+
+// Why a single rank solves this job, whatever its body. Empty if ranks may share it.
+std::string single_rank_reason(const Job<SolveConfig>& job) {
+  if (!ranks()) return "";
+  return why_one_rank(job.config, job.has("mirror") && !job.dry_run);
+}
+
+void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
+  job.say("{} of {} ranks idle: {}", ranks()->n() - 1, ranks()->n(), reason);
+}
+
+// The solution of another member of a sweep, if this scene is its mirror image. Sensitivities are
+// not copied: a number of one scene may be a different number of its image.
+std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
+  const Job<SolveConfig>& job = input.job;
+  if (!job.has("mirror") || job.dry_run || !job.config.sensitivity.empty()) return std::nullopt;
+  SolveConfig config = job.config;
+  if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
+  const MirrorTask task{config,          input.material,      job.where, job.identity,
+                        input.mesh_file, job.input("mirror"), job.output};
+  return take_image(job.voice(), task);
+}
+
+// The part of a worker rank in a shared run: it follows the same path and neither prints nor
+// writes. Its calls to other ranks match those of rank 0 in solve_model, in the same order.
+void run_worker_rank(Run& run, bool dry_run, const SolveConfig& config) {
+  if (!run.shared_by()) return;
+  if (dry_run) {
+    forecast_of(config, run.body, run.statics, run.scene.stops);
+    return;
   }
-  ModelChoice model(job.voice(), job.config, mesh, material, job.where, job.dry_run);
-  for (;;) {
-    const bool at_a_point = model.at_a_point();
+  by_first(run.shared_by(), [] { return true; });  // the preparation of rank 0
+  run.resume_all();
+  run.follow();
+}
+
+// What is computed along the path and recorded with it. The order of the members is that of their
+// construction: each refers to those above it.
+struct Observers {
+  RecoveredPath recovered;  // error estimate by recovery
+  std::string loose;        // motions that only contact restrains, in words
+  std::optional<Sensitivity> sensitivity;
+  std::optional<Uncertainty> uncertainty;
+  std::optional<Recording> recording;  // writes the solution file
+
+  Observers(const Run& run, const SolveConfig& config)
+      : recovered(run, config, config.estimate == EstimateBy::recovery) {}
+
+  // Checks the memory and opens the output. Only rank 0 does so; if it fails, all ranks end.
+  void prepare(const Case& input, const SolveConfig& config, Run& run, RunWatch& watch) {
+    const Job<SolveConfig>& job = input.job;
+    by_first(run.shared_by(), [&] {
+      need_memory(run.statics, watch.of_mesh(), config.threads);
+      loose = held_by_contact(run, job.where);
+      sensitivity.emplace(run, config, job.where);
+      uncertainty.emplace(input.parameters, run, *sensitivity);
+      recording.emplace(run, watch, config, job.identity, job.output,
+                        recovered.beside(uncertainty->beside(sensitivity->companion())));
+      return true;
+    });
+  }
+};
+
+// Follows the load path to its end. A signal is noted and ends the run after the current
+// increment; the steps so far stay in the output, so that the next call continues from them.
+RunEnd follow_load_path(const Job<SolveConfig>& job, Observers& observers, Progress& progress) {
+  const EndsSoon steps_are_kept(SIGINT);
+  return observers.recording->follow(job.voice(), progress, observers.loose);
+}
+
+// Solves the current model. Returns its results, or nothing if another model has to be solved.
+std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
+  const Job<SolveConfig>& job = input.job;
+  SolveConfig config = model.config();
+  Run run(model.mesh(), config, input.material, job.where, model.at_a_point(),
+          single_rank_reason(job).empty());
+  if (ranks() && !ranks()->first()) {
+    run_worker_rank(run, job.dry_run, config);
+    return Summaries{};
+  }
+  if (!run.why_alone.empty()) report_idle_ranks(job, run.why_alone);
+
+  const double fibre_jump = say_scene(job.voice(), run);
+  config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
+  RunWatch watch(run, config, job.where, input.study);
+  if (job.dry_run) return say_forecast(job.voice(), config, input.material, job.where, run, watch);
+
+  Observers observers(run, config);
+  observers.prepare(input, config, run, watch);
+  run.resume_all();
+  Progress progress(job.voice(), run);
+  const Interruptible signals_are_noted;
+  const RunEnd end = follow_load_path(job, observers, progress);
+  if (end.at == RunEnd::At::not_homogeneous) {
+    model.leave_homogeneous_point();
+    return std::nullopt;
+  }
+
+  // All steps are in the file now: a signal ends the program during the estimate at once.
+  std::optional<EndsSoon> during_estimate(std::in_place);
+  Recording& recording = *observers.recording;
+  const PathErrors errors =
+      say_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
+                 observers.recovered, watch.contact_warnings().empty());
+  const Decision decision = model.decide(errors, run.mesh);
+  if (decision.action == Action::refine) {
+    if (interrupted()) recording.stopped_in_estimate();
+    return std::nullopt;
+  }
+  during_estimate.reset();
+
+  const auto forces = observers.uncertainty->of(end.last);
+  say_forces(job.voice(), input.parameters, forces, errors.at_end);
+  const Summaries results =
+      joined({observers.sensitivity->summary(end.last), summary_of(forces),
+              summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary()});
+  recording.finish(results, histories_of(errors));
+  progress.finished(end.path, run.statics, recording.seconds());
+
+  // The result is kept even if it is less accurate than requested; the exit code shows it.
+  if (decision.action == Action::stop) model.require_accuracy(errors.at_end, job.output);
+  const Summaries of_fibres{{"fibre_jump", fibre_jump, "deg"}};
+  return joined(
+      {summary_of(run, end, recording.n_steps()), results, of_fibres, watch.stability_summary()});
+}
+
+Summaries solve(const Job<SolveConfig>& job) {
+  // A worker rank notes a signal and waits for rank 0, which ends the run for all.
+  std::optional<Interruptible> worker_signals;
+  if (ranks() && !ranks()->first()) worker_signals.emplace();
+  if (const std::string reason = single_rank_reason(job); !reason.empty()) {
+    if (!ranks()->first()) return {};
+    report_idle_ranks(job, reason);
+  }
+
+  const Case input = read_case(job);
+  if (const auto copy = reuse_mirrored_solution(input)) return *copy;
+
+  ModelChoice model(job.voice(), input.job.config, input.mesh_file, input.material, job.where,
+                    job.dry_run);
+  while (true) {
+    const bool was_homogeneous = model.at_a_point();
     try {
-      if (const auto results = solve_by(job, material, known, model)) return *results;
+      if (const auto results = solve_model(input, model)) return *results;
     } catch (const Failure& failure) {
-      if (!model.another(failure)) throw;
+      if (!model.retry_after(failure)) throw;
     }
-    const bool goes_on =
-        at_a_point && !model.at_a_point();  // the mesh, from the steps of the point
-    if (!goes_on) discard_steps(job.output);
+    // A body that has ceased to deform homogeneously continues on its mesh from the same steps.
+    const bool continues = was_homogeneous && !model.at_a_point();
+    if (!continues) forget_steps(job.output);
   }
 }
 

@@ -314,10 +314,10 @@ TEST_CASE(
 
 TEST_CASE(
     "what a level would take is held against memory and time, and the limits of both are known") {
-  CHECK(too_dear({10, 1e9, 2e9}, 20).empty());
-  CHECK(too_dear({10, 3e9, 2e9}, 20).find("3.0 GB") != std::string::npos);
-  CHECK(too_dear({30, 1e9, 2e9}, 20).find("30 s") != std::string::npos);
-  CHECK(!too_dear({30, 1e9, 2e9}, -5).empty());
+  CHECK(limit_exceeded({10, 1e9, 2e9}, 20).empty());
+  CHECK(limit_exceeded({10, 3e9, 2e9}, 20).find("3.0 GB") != std::string::npos);
+  CHECK(limit_exceeded({30, 1e9, 2e9}, 20).find("30 s") != std::string::npos);
+  CHECK(!limit_exceeded({30, 1e9, 2e9}, -5).empty());
   setenv("SLURM_JOB_END_TIME", std::to_string(std::time(nullptr) + 100).c_str(), 1);
   CHECK(seconds_left() <= 101);
   CHECK(seconds_left() > 50);
@@ -349,7 +349,7 @@ TEST_CASE("an indenter that touches nothing has a force of 0 and no percent") {
       Voice{"solve", true}, config, std::nullopt, [](const std::string&) { return Place{}; },
       false);
   CHECK(accuracy.summary({none}).empty());
-  accuracy.need({none}, "out.h5");
+  accuracy.require({none}, "out.h5");
   REQUIRE(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}}).size() == 1);
   CHECK(accuracy.summary({none, ErrorEstimate{{"force", "N", 2}, 0.01}})[0].value == near(0.5));
 }

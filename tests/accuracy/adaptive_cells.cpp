@@ -38,7 +38,7 @@ Found adapted(const std::string& text) {
     out.percent.push_back(judged.empty() ? 1e9 : judged[0].in_percent(judged[0].total()));
     out.value.push_back(judged.empty() ? 0 : judged[0].of.value);
     REQUIRE(out.cells.size() < 9);
-    if (!model.another(errors, run.mesh)) return out;
+    if (model.decide(errors, run.mesh).action != Action::refine) return out;
   }
 }
 
@@ -107,20 +107,20 @@ TEST_CASE(
 TEST_CASE(
     "cells of which dual solutions or hanging nodes know nothing are not cut, and the reason is told") {
   SolveConfig config = test::config_of(sheared);
-  CHECK(why_not_cut(config).empty());
+  CHECK(reason_not_refinable(config).empty());
   config.estimate = EstimateBy::recovery;
-  CHECK(why_not_cut(config).empty());
+  CHECK(reason_not_refinable(config).empty());
   config.mesh->geometry = IndentedBlock{{0, 0, 0}, {10, 4, 10}, 2.5, 0.5};
-  CHECK(why_not_cut(config) == "recovery judges graded lines as they are");
+  CHECK(reason_not_refinable(config) == "recovery judges graded lines as they are");
   config.estimate = EstimateBy::refinement;
-  CHECK(!why_not_cut(config).empty());
+  CHECK(!reason_not_refinable(config).empty());
   config = test::config_of(sheared);
   config.sensitivity = {"matrix.neo_hooke.a1"};
-  CHECK(why_not_cut(config) == "found derivatives");
+  CHECK(reason_not_refinable(config) == "found derivatives");
   Mesh mesh = test::cube(2);
-  CHECK(why_not_cut(mesh).empty());
+  CHECK(reason_not_refinable(mesh).empty());
   mesh.type = CellType::hex27;
-  CHECK(!why_not_cut(mesh).empty());
+  CHECK(!reason_not_refinable(mesh).empty());
 }
 
 TEST_CASE(
@@ -128,19 +128,19 @@ TEST_CASE(
   const SolveConfig config = test::config_of(sheared + "accuracy: 1%\n");
   ModelChoice model({"solve", true}, config, "", config.material, test::nowhere, false);
   const Failure stuck(Exit::not_converged, Error{{}, "", "stopped at t = 0.5", "", ""});
-  CHECK(!model.another(stuck));  // of the first level nothing is known
+  CHECK(!model.retry_after(stuck));  // of the first level nothing is known
   const Mesh first = model.mesh();
   PathErrors errors;
   errors.at_end = {{{"reaction_top", "N", 2.0}, 0.06}};  // 3 %
   errors.of_cells.assign(static_cast<std::size_t>(first.n_cells()), 1);
-  REQUIRE(model.another(errors, first));
+  REQUIRE(model.decide(errors, first).action == Action::refine);
   CHECK(model.mesh().n_cells() > first.n_cells());
-  REQUIRE(model.another(stuck));
+  REQUIRE(model.retry_after(stuck));
   CHECK(model.mesh().n_cells() == first.n_cells());
-  CHECK(!model.another(errors, first));
-  CHECK(!model.another(stuck));
+  CHECK(model.decide(errors, first).action == Action::stop);
+  CHECK(!model.retry_after(stuck));
   try {
-    model.need(errors.at_end, "out.h5");
+    model.require_accuracy(errors.at_end, "out.h5");
     FAIL("3 % are taken for 1 %");
   } catch (const Failure& failure) {
     CHECK(failure.code() == Exit::not_accurate);

@@ -49,15 +49,15 @@ Ended asked_for(const std::string& scene, const std::string& accuracy) {
       ended.errors =
           estimated(ended.config, ended.config.material, test::nowhere, run, end.last, path, {})
               .at_end;
-      again = accurate.refine(ended.errors);
+      again = accurate.decide(ended.errors).action == Action::refine;
     } catch (const Failure& failure) {
       if (failure.code() != Exit::not_converged) throw;
       ended.words = failure.what();
-      again = accurate.begin_anew(failure);
+      again = accurate.retry_after(failure);
     }
   }
   try {
-    accurate.need(ended.errors, "solution.h5");
+    accurate.require(ended.errors, "solution.h5");
     ended.met = true;
   } catch (const Failure& failure) {
     CHECK(failure.code() == Exit::not_accurate);

@@ -128,14 +128,14 @@ Answer asked_for(const SolveConfig& config, double seconds) {
       answer.solved = solved_once(answer.config, seconds);
       if (answer.solved.took >= shortest)
         answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
-      again = accuracy.refine(answer.solved.errors);
+      again = accuracy.decide(answer.solved.errors).action == Action::refine;
     } catch (const Failure& failure) {
-      again = accuracy.begin_anew(failure);
+      again = accuracy.retry_after(failure);
       if (!again) throw;
     }
   }
   answer.seconds = cpu_seconds() - start;
-  accuracy.need(answer.solved.errors, "");
+  accuracy.require(answer.solved.errors, "");
   return answer;
 }
 

@@ -59,12 +59,12 @@ expect_said("2 ranks")
 # nothing to share
 run(0 ${solve} --quiet -o factor.h5)
 run(0 ${launch} ${solve} -o idle.h5)
-expect_said("1 of 2 ranks have nothing to do: it is small, and quickly factorized")
+expect_said("1 of 2 ranks idle: it is small, and quickly factorized")
 expect_same(idle.h5 factor.h5)
 run(0 ${launch} ${solve} --set solver.newton.linear=iterative --set estimate=dual -o idle.h5)
-expect_said("1 of 2 ranks have nothing to do: the estimate of its errors")
+expect_said("1 of 2 ranks idle: the estimate of its errors")
 run(0 ${launch} ${BIN}/langer-post configs/post/smoke.yaml --solution 2a.h5 -o curves.h5)
-expect_said("1 of 2 ranks have nothing to do: langer-post is the work of one process")
+expect_said("1 of 2 ranks idle: langer-post is the work of one process")
 
 # the same code on all, said once; a failure of one ends the others
 run(2 ${launch} ${iterative} --set path.frist=1 -o no.h5)

@@ -160,7 +160,7 @@ timeout 120 $srun "$@" --set path.frist=1 -o no.h5 > wrong.txt 2>&1
 [ $? = 2 ] && [ "$(grep -c 'unknown key' wrong.txt)" = 1 ] || fail "an error of two ranks: $(cat wrong.txt)"
 timeout 120 srun --quiet --mpi=none -n 2 "$@" -o lonely.h5 > lonely.txt 2>&1 || fail "two processes that do not know of each other: $(cat lonely.txt)"
 langer-compare-h5 alone.h5 lonely.h5 0 --data || fail "one of two processes has another result"
-[ "$(grep -c '1 of 2 ranks have nothing to do: .*srun --mpi=pmix' lonely.txt)" = 1 ] || fail "nothing says how ranks get to know of each other: $(cat lonely.txt)"
+[ "$(grep -c '1 of 2 ranks idle: .*srun --mpi=pmix' lonely.txt)" = 1 ] || fail "nothing says how ranks get to know of each other: $(cat lonely.txt)"
 sed -e 's/^pipeline: .*/pipeline: shared/' -e 's/^    sweep:/    set: {symmetry: none, solver.newton.linear: iterative}\n    sweep:/' pipelines/smoke.yaml > shared.yaml
 langer-plan shared.yaml --quiet || fail "langer-plan shared.yaml"
 salloc --quiet -n 2 make --no-print-directory -C runs/shared -j1 LAUNCH="$srun" > shared.txt 2>&1 || fail "make with ranks: $(tail -20 shared.txt)"

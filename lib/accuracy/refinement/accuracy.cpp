@@ -7,10 +7,13 @@
 
 #include "accuracy/checks/progress.hpp"
 #include "accuracy/refinement/adaptive_cells.hpp"
+#include "accuracy/refinement/constants.hpp"
 #include "accuracy/refinement/level_cost.hpp"
 #include "scene/run/footprint.hpp"
 
 namespace langer {
+
+using namespace refinement;
 
 namespace {
 
@@ -22,18 +25,6 @@ bool has_fibres(const SolveConfig& config, const std::optional<Material>& materi
          std::any_of(config.materials.begin(), config.materials.end(),
                      [&](const auto& body) { return fibrous(body.second.material); });
 }
-
-// where scenes of other kinds begin: with friction the estimates of longer cells were half the
-// error (docs/work_precision.md)
-constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0},
-    coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
-constexpr AccuracyLevel bent{CellType::hex27, 0.5, 0.25, 0};  // a sheet that bends
-constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};
-constexpr double enough_for_coarsest = 2;  // [%]
-constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};
-constexpr double finest_of_block = 0.04, finest_of_disc = 0.01;  // finer ones were never tried
-constexpr double most_hex8 = 6e4;         // of meshes whose cells are no lengths in contact radii
-constexpr double worth_a_forecast = 1e4;  // cells: fewer take some seconds
 
 // cells to where the indenters are, unless the config says where
 void place_cells(IndentedBlock& block, const Footprint& print) {
@@ -163,12 +154,16 @@ AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chose
   if (!edge) return the_configs_own(config, cells);
   const int per_layer = cells == CellType::hex27 ? 2 : 5;
   const int fewest_layers = per_layer * std::max(1, static_cast<int>(config.mesh->bodies.size()));
-  AccuracyLevel level = is_section(geometry)       ? of_disc
-                        : cells == CellType::hex27 ? bent
-                        : chosen.cut               ? to_be_cut
-                        : has_friction(config) && chosen.wanted < enough_for_coarsest
-                            ? coarsest_with_friction
-                            : coarsest;
+  AccuracyLevel level = coarsest;
+  if (is_section(geometry)) {
+    level = of_disc;
+  } else if (cells == CellType::hex27) {
+    level = bent;
+  } else if (chosen.cut) {
+    level = to_be_cut;
+  } else if (has_friction(config) && chosen.wanted < enough_for_coarsest) {
+    level = coarsest_with_friction;
+  }
   *edge = level.edge;
   while (*edge > chosen.finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
   level.edge = *edge;
@@ -215,21 +210,9 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
 }  // namespace
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
-  // make work-precision; force_error of <scene>/levels.csv: h17-4steps, h15-4steps, q35-4steps and
-  // q25-5steps in the isotropic scene, and what their neighbours add: with few nodes in contact one
-  // of them or another touches by chance
-  static const std::vector<AccuracyLevel> smooth{{CellType::hex8, 0.175, 0.25, 2},
-                                                 {CellType::hex8, 0.15, 0.25, 1},
-                                                 {CellType::hex27, 0.3536, 0.25, 0.5},
-                                                 {CellType::hex27, 0.25, 0.2, 0.2}};
-  // h17-4steps, h15-4steps, h12-4steps, h11-4steps, h10-4steps and h09-4steps in the worse of the
-  // scenes with friction, and a quarter more for scenes unlike them (pipelines/accuracy.yaml).
-  // Shorter increments cost more and are no nearer: what cells add, longer increments take away. At
-  // 1 % five of them, since with four the estimate is just above it and cells would be made shorter
-  static const std::vector<AccuracyLevel> others{
-      {CellType::hex8, 0.175, 0.25, 2.7}, {CellType::hex8, 0.15, 0.25, 1.8},
-      {CellType::hex8, 0.125, 0.25, 1.2}, {CellType::hex8, 0.11, 0.2, 1},
-      {CellType::hex8, 0.1, 0.25, 0.7},   {CellType::hex8, 0.0884, 0.25, 0.55}};
+  static const std::vector<AccuracyLevel> smooth(std::begin(smooth_levels),
+                                                 std::end(smooth_levels));
+  static const std::vector<AccuracyLevel> others(std::begin(other_levels), std::end(other_levels));
   return plain ? smooth : others;
 }
 
@@ -245,7 +228,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   }
   const bool may_be_cut =
       !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
-  chosen.cut = cuts && may_be_cut && why_not_cut(config).empty();
+  chosen.cut = cuts && may_be_cut && reason_not_refinable(config).empty();
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
     chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1,
                     config.path.largest_increment(), 0, false};
@@ -387,29 +370,29 @@ SolveConfig Accuracy::with(const AccuracyLevel& level) const {
   return config;
 }
 
-std::string Accuracy::not_begun(const std::string& level, double cells,
-                                const std::function<LevelCost()>& cost) const {
+std::string Accuracy::reason_too_expensive(const std::string& level, double cells,
+                                           const std::function<LevelCost()>& cost) const {
   const double left = seconds_left();
   if (std::isinf(left) && cells < worth_a_forecast) return "";
   const LevelCost forecast = cost();
   voice_.say("accuracy: {}: {}, by the forecast", level, in_words(forecast));
-  const std::string why = too_dear(forecast, left);
+  const std::string why = limit_exceeded(forecast, left);
   if (why.empty()) return "";
   return fmt::format("a next level, {}, {}", level, why);
 }
 
-std::string Accuracy::not_begun(const AccuracyLevel& level) const {
+std::string Accuracy::reason_too_expensive(const AccuracyLevel& level) const {
   const SolveConfig config = with(level);
-  return not_begun(in_words(level), n_cells(config.mesh->geometry),
-                   [&] { return level_cost(config, material_, where_); });
+  return reason_too_expensive(in_words(level), n_cells(config.mesh->geometry),
+                              [&] { return level_cost(config, material_, where_); });
 }
 
-std::string Accuracy::not_begun(const Mesh& mesh) const {
-  return not_begun(fmt::format("{} cells", mesh.n_cells()), mesh.n_cells(),
-                   [&] { return level_cost(config_, mesh, material_, where_); });
+std::string Accuracy::reason_too_expensive(const Mesh& mesh) const {
+  return reason_too_expensive(fmt::format("{} cells", mesh.n_cells()), mesh.n_cells(),
+                              [&] { return level_cost(config_, mesh, material_, where_); });
 }
 
-bool Accuracy::begin_anew(const Failure& failure) {
+bool Accuracy::retry_after(const Failure& failure) {
   if (!begins_ || failure.code() != Exit::not_converged) return false;
   voice_.say("accuracy: {}", failure.what());
   return shorter_cells();
@@ -417,7 +400,8 @@ bool Accuracy::begin_anew(const Failure& failure) {
 
 // once, where no error is known that would say which
 bool Accuracy::shorter_cells() {
-  const auto shorter = ++without_estimate_ > 1 ? std::nullopt : with_shorter_cells(*chosen_);
+  if (++without_estimate_ > 1) return false;
+  const std::optional<AccuracyLevel> shorter = with_shorter_cells(*chosen_);
   if (!shorter) return false;
   take(*shorter);
   voice_.say("accuracy: {}", in_words(*shorter));
@@ -431,33 +415,43 @@ void Accuracy::take(const AccuracyLevel& level) {
   chosen_->met = chosen_->shown = false;  // no study stands for it
 }
 
-bool Accuracy::refine(const std::vector<ErrorEstimate>& estimates) {
-  if (!chosen_ || config_.estimate != EstimateBy::refinement) return false;
-  if (estimates.empty()) return shorter_cells();
+// The last decision on a level: accept it if it meets the request, stop otherwise.
+Decision Accuracy::final_decision(const std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_ || reached(*chosen_, estimates).met) return {Action::accept};
+  return {Action::stop, stop_reason_};
+}
+
+Decision Accuracy::decide(const std::vector<ErrorEstimate>& estimates) {
+  if (!chosen_ || config_.estimate != EstimateBy::refinement) return final_decision(estimates);
+  if (estimates.empty()) {
+    if (shorter_cells()) return {Action::refine};
+    return final_decision(estimates);
+  }
   begins_ = false;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   const OrdersSeen orders = orders_since_before(estimates);
-  if (found.met) return false;
+  if (found.met) return {Action::accept};
   const auto finer = finer_level(*chosen_, estimates, orders);
   if (!finer) {
     const AccuracyLevel finest = finest_level(*chosen_);
-    if (finest.edge < 0.99 * chosen_->level.edge)
-      not_begun_ = fmt::format("the finest level that was tried, {}, would have about {:.2g} %",
-                               in_words(finest), percent_at(*chosen_, estimates, finest));
-    return false;
+    if (finest.edge < 0.99 * chosen_->level.edge) {
+      stop_reason_ = fmt::format("the finest level that was tried, {}, would have about {:.2g} %",
+                                 in_words(finest), percent_at(*chosen_, estimates, finest));
+    }
+    return final_decision(estimates);
   }
-  not_begun_ = not_begun(*finer);
-  if (!not_begun_.empty()) {
-    not_begun_ +=
+  stop_reason_ = reason_too_expensive(*finer);
+  if (!stop_reason_.empty()) {
+    stop_reason_ +=
         fmt::format("; its error would be about {:.2g} %", percent_at(*chosen_, estimates, *finer));
-    return false;
+    return final_decision(estimates);
   }
   take(*finer);
   voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
-  return true;
+  return {Action::refine};
 }
 
-std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& estimates) const {
+std::optional<double> Accuracy::wanted_share(const std::vector<ErrorEstimate>& estimates) const {
   if (!chosen_) return std::nullopt;
   if (forces_judged(estimates).empty()) return 0.0;
   const ReachedAccuracy found = reached(*chosen_, estimates);
@@ -465,7 +459,7 @@ std::optional<double> Accuracy::wanted_of(const std::vector<ErrorEstimate>& esti
   return std::optional(chosen_->wanted / found.percent);
 }
 
-std::optional<double> Accuracy::missed_by(const std::vector<ErrorEstimate>& estimates) const {
+std::optional<double> Accuracy::missed_percent(const std::vector<ErrorEstimate>& estimates) const {
   if (!chosen_ || forces_judged(estimates).empty()) return std::nullopt;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return std::nullopt;
@@ -482,19 +476,20 @@ std::vector<Summary> Accuracy::summary(const std::vector<ErrorEstimate>& estimat
   return {{"accuracy", found.percent, "percent"}};
 }
 
-void Accuracy::need(const std::vector<ErrorEstimate>& estimates, const std::string& output,
-                    const std::string& cheaper) const {
+void Accuracy::require(const std::vector<ErrorEstimate>& estimates, const std::string& output,
+                       const std::string& cheaper) const {
   if (!chosen_) return;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   if (found.met) return;
   if (estimates.empty() && config_.estimate == EstimateBy::none)
     return voice_.warn("accuracy: " + found.words);
   const char* key = config_.accuracy ? "accuracy" : "fidelity";
+  std::string found_text = found.words;
+  if (!stop_reason_.empty()) found_text += "; " + stop_reason_;
   throw Failure(
       Exit::not_accurate,
       Error{
-          where_(key), key, found.words + (not_begun_.empty() ? "" : "; " + not_begun_),
-          fmt::format("at most {:g} %", chosen_->wanted),
+          where_(key), key, found_text, fmt::format("at most {:g} %", chosen_->wanted),
           fmt::format(
               "kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
               "mesh.geometry with estimate, in place of {}",

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "accuracy/estimate/error_estimate.hpp"
+#include "accuracy/refinement/decision.hpp"
 #include "accuracy/refinement/level_cost.hpp"
 #include "core/base/voice.hpp"
 #include "scene/model/solve_config.hpp"
@@ -103,35 +104,38 @@ class Accuracy {
 
   const SolveConfig& config() const { return config_; }  // to be solved
   bool cuts() const { return chosen_ && chosen_->cut; }  // cells, where the error comes from
-  // Whether to solve again, with config() as it is now. Says so.
-  bool refine(const std::vector<ErrorEstimate>& estimates);
+  // Whether to accept the solution, or to solve again with config() as it is then (a message says
+  // so), or to stop short of the request.
+  Decision decide(const std::vector<ErrorEstimate>& estimates);
+  // The same for a level that nothing follows: accept or stop.
+  Decision final_decision(const std::vector<ErrorEstimate>& estimates) const;
   // The share of what was reached that is wanted, where that is less; 0 where it is not known.
   // Nothing where it is met, or none is asked for.
-  std::optional<double> wanted_of(const std::vector<ErrorEstimate>& estimates) const;
+  std::optional<double> wanted_share(const std::vector<ErrorEstimate>& estimates) const;
   // What was reached, where it is not what was asked for [%]; nothing where it is, or is not known.
-  std::optional<double> missed_by(const std::vector<ErrorEstimate>& estimates) const;
-  // Why a next level is not begun that another one makes (accuracy/adaptive_cells.hpp); empty where
-  // it may be. Says what it takes.
-  std::string not_begun(const Mesh& mesh) const;
-  void ends_here(const std::string& why) { not_begun_ = why; }  // no next level, and why
-  // Where the cells of the beginning find no equilibrium: whether to solve with shorter ones. Says
-  // so.
-  bool begin_anew(const Failure& failure);
+  std::optional<double> missed_percent(const std::vector<ErrorEstimate>& estimates) const;
+  // Why a locally refined mesh (adaptive_cells.hpp) exceeds the time or memory that is left; empty
+  // if it does not. Prints its cost.
+  std::string reason_too_expensive(const Mesh& mesh) const;
+  void set_stop_reason(const std::string& why) { stop_reason_ = why; }
+  // If the first mesh finds no equilibrium: whether to solve again with smaller elements. Prints
+  // it.
+  bool retry_after(const Failure& failure);
   std::vector<Summary> summary(
       const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
   // Throws Failure(not_accurate) where the estimates exceed what was asked for. cheaper: what would
   // take less; may be empty
-  void need(const std::vector<ErrorEstimate>& estimates, const std::string& output,
-            const std::string& cheaper = "") const;
+  void require(const std::vector<ErrorEstimate>& estimates, const std::string& output,
+               const std::string& cheaper = "") const;
 
  private:
   void take(const AccuracyLevel& level);
   bool shorter_cells();
   SolveConfig with(const AccuracyLevel& level) const;
   OrdersSeen orders_since_before(const std::vector<ErrorEstimate>& estimates);
-  std::string not_begun(const AccuracyLevel& level) const;  // as that of a mesh
-  std::string not_begun(const std::string& level, double cells,
-                        const std::function<LevelCost()>& cost) const;
+  std::string reason_too_expensive(const AccuracyLevel& level) const;  // as that of a mesh
+  std::string reason_too_expensive(const std::string& level, double cells,
+                                   const std::function<LevelCost()>& cost) const;
 
   Voice voice_;
   SolveConfig config_;
@@ -140,7 +144,7 @@ class Accuracy {
   std::optional<ChosenLevel> chosen_;
   double edge_before_ = 0;  // of the level before, and its errors of cells [%]
   std::map<std::string, double> cells_before_;
-  std::string not_begun_;
+  std::string stop_reason_;
   int without_estimate_ = 0;
   bool begins_ = false;  // with cells that no study and no estimate stands for
 };

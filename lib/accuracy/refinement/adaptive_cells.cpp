@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "accuracy/refinement/constants.hpp"
 #include "mechanics/element/geometry.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "scene/model/hanging_constraints.hpp"
@@ -13,13 +14,9 @@ namespace langer {
 
 namespace {
 
-constexpr double fewest = 0.3, most = 0.9;  // shares of the sum
-constexpr double fewest_cells =
-    1.0 / 7;  // of all: a level that does not double them tells little more than the one before
-constexpr double alike = 1e-4;  // relative
-
-constexpr double across =
-    0.5;  // length of a cell under an indenter, in half widths of what touches
+constexpr double equal = 1e-4;  // relative: errors that symmetry makes equal
+// The largest element under an indenter, in half widths of the contact.
+constexpr double across = 0.5;
 constexpr int most_at_first = 20'000;
 
 double longest_edge_in_plan(const Mesh& mesh, int e) {
@@ -36,15 +33,17 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
   std::ranges::stable_sort(by_size,
                            [&](std::size_t a, std::size_t b) { return parts[a] > parts[b]; });
   const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
-  const double enough = sum * std::clamp((1 - wanted) / (1 - std::pow(2, -order)), fewest, most);
+  const double enough =
+      sum * std::clamp((1 - wanted) / (1 - std::pow(2, -order)), refinement::least_marked_error,
+                       refinement::most_marked_error);
   std::vector<char> marked(parts.size(), 0);
   double so_far = 0, last = 0;
   std::size_t n = 0;
   for (std::size_t e : by_size) {
     const bool are_enough =
-        so_far >= enough &&
-        static_cast<double>(n) >= fewest_cells * static_cast<double>(parts.size());
-    if (parts[e] == 0 || (are_enough && parts[e] < (1 - alike) * last)) break;
+        so_far >= enough && static_cast<double>(n) >=
+                                refinement::least_marked_cells * static_cast<double>(parts.size());
+    if (parts[e] == 0 || (are_enough && parts[e] < (1 - equal) * last)) break;
     marked[e] = 1;
     ++n;
     so_far += parts[e];
@@ -53,7 +52,7 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
   return marked;
 }
 
-std::string why_not_cut(const SolveConfig& config) {
+std::string reason_not_refinable(const SolveConfig& config) {
   const bool dual = config.estimate == EstimateBy::dual;
   if (!dual && config.estimate != EstimateBy::recovery)
     return "cells are cut by the parts of a dual solution or of recovery";
@@ -66,10 +65,11 @@ std::string why_not_cut(const SolveConfig& config) {
   return never.front().found;
 }
 
-std::string why_not_cut(const Mesh& mesh) {
+std::string reason_not_refinable(const Mesh& mesh) {
   if (mesh.section) return "sections have no cuts";
   if (mesh.type != CellType::hex8) return "hex8 alone are cut";
-  return mesh.hanging.empty() ? "" : "the mesh has cuts of its own";
+  if (!mesh.hanging.empty()) return "the mesh has cuts of its own";
+  return "";
 }
 
 int shorten_under(const SolveConfig& config, CutMesh& cells) {

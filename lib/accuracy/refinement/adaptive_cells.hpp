@@ -19,8 +19,8 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
 
 // Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose
 // errors are known by cells, and nothing that hanging nodes do not know (scene/hanging.hpp).
-std::string why_not_cut(const SolveConfig& config);
-std::string why_not_cut(const Mesh& mesh);
+std::string reason_not_refinable(const SolveConfig& config);
+std::string reason_not_refinable(const Mesh& mesh);
 
 // Under each indenter that reaches the top, until cells there are at most half as long as what
 // touches is to its side: with longer ones the first solution tells nothing. How many times they

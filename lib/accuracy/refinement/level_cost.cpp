@@ -50,7 +50,7 @@ double seconds_left() {
   return left;
 }
 
-std::string too_dear(const LevelCost& cost, double left) {
+std::string limit_exceeded(const LevelCost& cost, double left) {
   if (cost.bytes > cost.free)
     return fmt::format("would take {} of memory, and {} are there", memory_in_words(cost.bytes),
                        memory_in_words(cost.free));

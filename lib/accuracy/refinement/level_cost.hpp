@@ -26,6 +26,6 @@ std::string in_words(const LevelCost& cost);  // "about 40 s of CPU and 430 MB"
 double seconds_left();
 
 // Why it is not to be begun, of memory and of seconds_left(); empty where it is.
-std::string too_dear(const LevelCost& cost, double left);
+std::string limit_exceeded(const LevelCost& cost, double left);
 
 }  // namespace langer

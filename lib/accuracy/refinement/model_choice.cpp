@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "accuracy/refinement/constants.hpp"
 #include "core/base/text.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/run_words.hpp"
@@ -9,9 +10,6 @@
 namespace langer {
 
 namespace {
-
-constexpr double margin = 0.8;     // of what is wanted: parts do not fall as told
-constexpr int most_cut = 150'000;  // cells: more were never tried
 
 SolveConfig of_scene(SolveConfig config, const std::string& file) {
   if (!file.empty()) config.mesh.reset();
@@ -39,7 +37,7 @@ Accuracy ModelChoice::of_model() const {
 Mesh ModelChoice::mesh() {
   if (cells_) return cells_->mesh();
   Mesh mesh = body_mesh(config(), file_, where_);
-  if (!accuracy_.cuts() || !why_not_cut(mesh).empty()) return mesh;
+  if (!accuracy_.cuts() || !reason_not_refinable(mesh).empty()) return mesh;
   cells_.emplace(mesh);
   if (const int times = shorten_under(config(), *cells_); times > 0)
     voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times,
@@ -47,46 +45,50 @@ Mesh ModelChoice::mesh() {
   return cells_->mesh();
 }
 
-bool ModelChoice::another(const PathErrors& errors, const Mesh& mesh) {
+Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   if (!section_.accurate(errors.at_end)) {
     before_.reset();
     accuracy_ = of_model();
-    return true;
+    return {Action::refine};
   }
-  if (is_last_) return false;
+  if (is_last_) return accuracy_.final_decision(errors.at_end);
   std::optional<Level> here;
-  const std::optional<double> percent = accuracy_.missed_by(errors.at_end);
+  const std::optional<double> percent = accuracy_.missed_percent(errors.at_end);
   if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_, percent};
-  bool again = false;
+  Decision decision;
   if (errors.of_cells.empty()) {
-    again = accuracy_.refine(errors.at_end);
+    decision = accuracy_.decide(errors.at_end);
+  } else if (cut(errors, mesh)) {
+    decision = {Action::refine};
   } else {
-    again = cut(errors, mesh);
+    decision = accuracy_.final_decision(errors.at_end);
   }
-  if (again) {
+  if (decision.action == Action::refine) {
     before_ = std::move(here);
-    return true;
+    return decision;
   }
-  constexpr double clearly = 0.9;
-  if (!percent || !before_ || !before_->percent || *before_->percent > clearly * *percent)
-    return false;
+
+  // A finer level with a clearly larger error than the one before is discarded.
+  const bool worse = percent && before_ && before_->percent &&
+                     *before_->percent <= refinement::clearly_better * *percent;
+  if (!worse) return decision;
   back_to_level_before(
       fmt::format("the error of a finer level is estimated at {:.2g} %, and {:.2g} % before",
                   *percent, *before_->percent));
-  return true;
+  return {Action::refine};
 }
 
 void ModelChoice::back_to_level_before(const std::string& why) {
   voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
   accuracy_ = before_->accuracy;
   cells_ = before_->cells;
-  accuracy_.ends_here(why);
+  accuracy_.set_stop_reason(why);
   before_.reset();
   is_last_ = true;
 }
 
-bool ModelChoice::another(const Failure& failure) {
-  if (accuracy_.begin_anew(failure)) return true;
+bool ModelChoice::retry_after(const Failure& failure) {
+  if (accuracy_.retry_after(failure)) return true;
   if (!before_ || failure.code() != Exit::not_converged) return false;
   const std::string why =
       fmt::format("a next level found no equilibrium: {}", failure.errors().front().found);
@@ -95,28 +97,29 @@ bool ModelChoice::another(const Failure& failure) {
 }
 
 bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
-  const std::optional<double> wanted = accuracy_.wanted_of(errors.at_end);
+  const std::optional<double> wanted = accuracy_.wanted_share(errors.at_end);
   if (!wanted) return false;
   if (!cells_) {
-    const std::string of_scene = why_not_cut(config());
-    accuracy_.ends_here("its cells are not cut: " +
-                        (of_scene.empty() ? why_not_cut(mesh) : of_scene));
+    std::string reason = reason_not_refinable(config());
+    if (reason.empty()) reason = reason_not_refinable(mesh);
+    accuracy_.set_stop_reason("its cells are not cut: " + reason);
     return false;
   }
   const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
   CutMesh next = *cells_;
-  next.cut(
-      largest_parts(errors.of_cells, margin * *wanted, judged.empty() ? 2 : judged.front().order));
+  double order = 2;
+  if (!judged.empty()) order = judged.front().order;
+  next.cut(largest_parts(errors.of_cells, refinement::target * *wanted, order));
   const int n = next.mesh().n_cells();
   const int before = mesh.n_cells();
   std::string why;
-  if (n > most_cut) {
-    why = fmt::format("a next level would have {} cells, of at most {}", n, most_cut);
+  if (n > refinement::most_cut) {
+    why = fmt::format("a next level would have {} cells, of at most {}", n, refinement::most_cut);
   } else {
-    why = accuracy_.not_begun(next.mesh());
+    why = accuracy_.reason_too_expensive(next.mesh());
   }
   if (!why.empty()) {
-    accuracy_.ends_here(why);
+    accuracy_.set_stop_reason(why);
     return false;
   }
   cells_ = std::move(next);
@@ -126,7 +129,7 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   return true;
 }
 
-void ModelChoice::leave_point() {
+void ModelChoice::leave_homogeneous_point() {
   voice_.say("homogeneous: the mesh no longer balances, and is solved from there on");
   at_a_point_ = false;
 }

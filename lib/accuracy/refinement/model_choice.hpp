@@ -20,22 +20,24 @@ class ModelChoice {
   const SolveConfig& config() const { return accuracy_.config(); }  // to be solved
   Mesh mesh();  // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
-  // Whether config() or mesh() is another one now: the errors of its solution on this mesh are too
-  // large, or it found no equilibrium, or a larger error than the level before: then it is that
-  // level, which is the last. Says so.
-  bool another(const PathErrors& errors, const Mesh& mesh);
-  bool another(const Failure& failure);
-  // The body has ceased to deform alike everywhere: its mesh goes on from the steps that are kept.
-  // Says so.
-  void leave_point();
+  // What follows from the errors of a solution on this mesh. After `refine`, config() and mesh()
+  // are those of the next level: a finer one if the errors are too large, or the level before if a
+  // finer one had larger errors. That level is then the last. Prints what it does.
+  Decision decide(const PathErrors& errors, const Mesh& mesh);
+  // The same after a level that found no equilibrium: whether there is another level to solve.
+  bool retry_after(const Failure& failure);
+  // The body has ceased to deform homogeneously: its mesh continues from the recorded steps.
+  // Prints it.
+  void leave_homogeneous_point();
 
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
   // Throws Failure(not_accurate) where the errors exceed what was asked for.
-  void need(const std::vector<ErrorEstimate>& errors, const std::string& output) const {
-    accuracy_.need(errors, output,
-                   section_.offered()
-                       ? "reduce: auto solves a section, on which short cells are cheap; "
-                       : "");
+  void require_accuracy(const std::vector<ErrorEstimate>& errors, const std::string& output) const {
+    std::string cheaper;
+    if (section_.offered()) {
+      cheaper = "reduce: auto solves a section, on which short cells are cheap; ";
+    }
+    accuracy_.require(errors, output, cheaper);
   }
 
  private:

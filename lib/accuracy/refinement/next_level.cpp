@@ -3,16 +3,14 @@
 #include <cmath>
 
 #include "accuracy/refinement/accuracy.hpp"
+#include "accuracy/refinement/constants.hpp"
+#include "core/base/text.hpp"
 
 namespace langer {
 
-namespace {
+using namespace refinement;
 
-constexpr double shortest_step = 0.01;  // shorter ones were never tried
-// An estimate of more than this [%] may be too large by the factor: then cells that it calls too
-// long may do.
-constexpr double rough = 5, too_large = 4;
-constexpr double most_cells_more = 8, most_increments_more = 3;  // from one level to the next
+namespace {
 
 // Other numbers of cells may not fit the lengths of graded ones: then somewhat shorter ones do.
 Geometry with_cells(const Geometry& written, double factor) {
@@ -86,32 +84,35 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
                                          const std::vector<ErrorEstimate>& estimates,
                                          const OrdersSeen& seen) {
   AccuracyLevel finer = chosen.level;
-  const double enough = 0.8 * chosen.wanted;
-  double step = 1, edge = 1;  // factors
+  const double enough = target * chosen.wanted;
+  // factors of the increment and of the mesh size
+  double step = 1;
+  double edge = 1;
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
   for (const ErrorEstimate& e : forces) {
     const double increments = e.in_percent(std::abs(e.increments));
-    if (increments > 0.35 * chosen.wanted)
+    if (increments > 0.35 * chosen.wanted) {
       step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
-    // an estimate of few increments scatters by more than itself, and a fifth more of them cost
-    // less than shorter cells
-    else if (increments > 0.05 * chosen.wanted)
+    } else if (increments > 0.05 * chosen.wanted) {
+      // The estimate from few increments scatters by more than its value, and a fifth more
+      // increments cost less than smaller elements.
       step = std::min(step, 0.8);
+    }
   }
   step = std::max(step, 1 / most_increments_more);
   const double least = chosen.finest / chosen.level.edge;
   const double at_once = shortest_at_once(chosen);
   for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
-    if (percent_with(e, least, step, e.order) > (is_rough ? too_large : 1) * chosen.wanted)
-      return std::nullopt;
-    const auto found = seen.find(e.of.name);
-    const double order = found == seen.end() ? e.order : found->second;
+    double most = chosen.wanted;
+    if (is_rough) most *= too_large;
+    if (percent_with(e, least, step, e.order) > most) return std::nullopt;
+    const double order = value_or(seen, e.of.name, e.order);
     while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
   finer.edge *= edge;
   finer.step *= step;
-  // numbers of a family come in fours: shorter until they are others
+  // The numbers of elements of a family are multiples: reduce the size until they change.
   const auto cells_of = [&](double length) {
     Geometry geometry = chosen.written;
     put_length(chosen, length, geometry);

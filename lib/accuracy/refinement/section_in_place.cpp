@@ -6,15 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/refinement/constants.hpp"
 #include "scene/model/scene.hpp"
 
 namespace langer {
 
 namespace {
-
-// what cells of a section are worth: docs/sections.md. Cells linear in both directions need more of
-// them
-constexpr double edge_hex27 = 0.125, edge_hex8 = 0.0442, finest = 0.04;
 
 Vec3 middle_of(const IndentedBlock& block) {
   return {block.origin[0] + 0.5 * block.size[0], 0, block.origin[2] + 0.5 * block.size[2]};
@@ -166,9 +163,13 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   if (accuracy_) {
     const bool bilinear =
         asked_.formulation && asked_.formulation != Formulation::linear_dilatation;
-    accuracy_->level.cells = bilinear ? CellType::hex8 : CellType::hex27;
-    accuracy_->level.edge = bilinear ? edge_hex8 : edge_hex27;
-    accuracy_->finest = finest;
+    accuracy_->level.cells = CellType::hex27;
+    accuracy_->level.edge = refinement::section_edge_hex27;
+    if (bilinear) {
+      accuracy_->level.cells = CellType::hex8;
+      accuracy_->level.edge = refinement::section_edge_hex8;
+    }
+    accuracy_->finest = refinement::finest_of_section;
     accuracy_->written = section->mesh->geometry;
     put(*accuracy_, *section);
   }
