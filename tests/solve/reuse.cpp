@@ -30,7 +30,7 @@ struct Roots {
     p.correction_again = [this]() -> std::optional<VecX> {
       return VecX(-f().cwiseQuotient(slope));
     };
-    p.price = price;
+    p.cost_ratio = price;
     p.admissible = [](const VecX&) {
       return true;
     };

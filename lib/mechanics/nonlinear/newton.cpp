@@ -50,7 +50,7 @@ namespace {
 // Whether the tangent in hand is worth another correction.
 class OldTangent {
  public:
-  explicit OldTangent(double price) : price_(price) {}
+  explicit OldTangent(double cost_ratio) : cost_ratio_(cost_ratio) {}
   // an increment in which nothing moves, as of a viscous body that is held: its contacts are found,
   // its residual is small, and stays about the same when the first correction has moved the branch
   // stresses into the volume
@@ -78,18 +78,18 @@ class OldTangent {
     // where switches of fibres turn on and off, an old tangent may undo what a new one did, for
     // ever
     if (share > 0.3) return any_ = false;
-    if (used_ > price_ + 2) return false;
+    if (used_ > cost_ratio_ + 2) return false;
     if (residual <= wanted) return true;  // something else is missing
     const double to_go = std::log(wanted / residual) / std::log(share);
-    return to_go <= price_ + 1;  // a new tangent will need one correction more as well
+    return to_go <= cost_ratio_ + 1;  // a new tangent will need one correction more as well
   }
   void corrected() { ++used_; }
 
  private:
-  double price_, before_ = 0;  // residual
-  int used_ = 0;               // since it was made
-  bool of_before_ = false;     // made where the step begins
-  bool any_ = true;            // serves in this step at all
+  double cost_ratio_, before_ = 0;  // residual
+  int used_ = 0;                    // since it was made
+  bool of_before_ = false;          // made where the step begins
+  bool any_ = true;                 // serves in this step at all
   bool rests_ = false;
 };
 
@@ -106,7 +106,7 @@ SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options
     return report;
   };
   const bool reuses = options.reuse_tangent && problem.correction_again;
-  OldTangent old(problem.price);
+  OldTangent old(problem.cost_ratio);
   const bool at_hand = reuses && problem.begins_again;
   for (;;) {
     if (is_stopped(problem, report)) return report;

@@ -11,8 +11,8 @@
 // There is no test that the residual decreases: near incompressibility the first residuals of a
 // step are huge by nature. After a correction others with the same tangent follow (modified Newton)
 // for as long as they are cheaper: each takes off about the same part of the residual, and a new
-// tangent costs `price` of them. What they leave is as large as the residual says, where Newton's
-// own correction would have left its square: they have to reach a thousandth of the usual
+// tangent costs `cost_ratio` of them. What they leave is as large as the residual says, where
+// Newton's own correction would have left its square: they have to reach a thousandth of the usual
 // tolerance; who asks for less than that gets what he asks for.
 #pragma once
 
@@ -41,8 +41,8 @@ struct Problem {
   std::function<Assessment(const VecX& x, bool with_tangent)> assess;
   std::function<std::optional<VecX>()> correction;
   std::function<std::optional<VecX>()>
-      correction_again;  // none: every correction takes a new tangent
-  double price = 0;      // of correction() in units of correction_again()
+      correction_again;   // none: every correction takes a new tangent
+  double cost_ratio = 0;  // of correction() in units of correction_again()
   bool begins_again = false;
   std::function<bool(const VecX& x)> admissible;
   std::function<void(const VecX& dx, double step)> moved;

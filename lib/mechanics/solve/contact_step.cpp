@@ -1,4 +1,10 @@
-// The corrections of an increment, and which factor serves for them.
+// One correction of an increment: linearise the balance, condense the contact to the candidates,
+// solve, and choose the factorization that serves for it.
+//   whole tangent, no contact        K du = rhs
+//   contact condensed                Schur complement of K on the candidates; the contact law is
+//                                    solved on it (contact_linearisation.hpp)
+//   contact in the tangent itself    rows of closed contacts join K (contact_in_tangent.hpp)
+// A factor of an earlier state of the increment serves for cheaper corrections (modified Newton).
 #include "core/base/stopwatch.hpp"
 #include "mechanics/linear/krylov.hpp"
 #include "mechanics/mesh/reference.hpp"
@@ -15,10 +21,10 @@ bool Statics::factorize() {
 
 TangentFactor& Statics::condensed_factor() {
   if (!contact_in_tangent()) return factor_;
-  if (!beside_)
-    beside_ = std::make_unique<TangentFactor>(equilibrium_, contacts_, options_.threads,
-                                              ContactBy::compliance);
-  return *beside_;
+  if (!second_factor_)
+    second_factor_ = std::make_unique<TangentFactor>(equilibrium_, contacts_, options_.threads,
+                                                     ContactBy::compliance);
+  return *second_factor_;
 }
 
 bool Statics::factorize_accepted() {
@@ -42,11 +48,11 @@ bool Statics::factorize_accepted() {
     factor.begin_increment();
     solvable = factor.factorize(equilibrium_);
   }
-  factor.uncount(needed);  // they count what the solution needed
+  factor.uncount(needed);  // the counts show what the solution itself needed
   return solvable;
 }
 
-void Statics::need_tangent() {
+void Statics::update_tangent() {
   if (K_current_) return;
   const Stopwatch watch(cost_.assembly);
   const VecX du = remaining_prescribed(u_);
@@ -54,10 +60,11 @@ void Statics::need_tangent() {
   K_current_ = true;
 }
 
-// From counts, not from a clock: the same scene takes the same way on every machine. The rates are
-// those of one thread of a machine of 2020 (`langer-bench indentation`); what counts is their
-// ratio.
-double Statics::price() const {
+// The cost of a correction with a new tangent, in corrections with the last one. It is computed
+// from operation counts and not measured with a clock: the same scene takes the same steps on every
+// machine. The rates are those of one thread of a machine of 2020 (`langer-bench indentation`);
+// only their ratio matters.
+double Statics::cost_ratio() const {
   const LinearSolver::Size size = factor_.size();
   const ReferenceCell& cell = equilibrium_.mesh().cell();
   const double points = static_cast<double>(equilibrium_.mesh().n_cells()) * cell.n_gauss;
@@ -70,41 +77,43 @@ double Statics::price() const {
 }
 
 std::optional<VecX> Statics::correction() {
-  need_tangent();
+  update_tangent();
   again_ = false;
   const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
   std::optional<VecX> du;
   if (contact_in_tangent())
-    du = corrected_with_contact(rhs);
+    du = solve_with_contact(rhs);
   else if (!factorize())
     return std::nullopt;
-  // springs of either kind hide what the body does; pressures of Gauss points are none of the mixed
-  // equations
+  // Supporting springs change the tangent too much to reuse its factor. The displacement
+  // formulation has no mixed equations in which an old tangent could stand for the new one.
   factor_serves_ = !iterative() && factor_.kind() == TangentFactor::Kind::whole &&
                    equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   if (contact_in_tangent()) return du;
-  return corrected(rhs);
+  return solve_condensed(rhs);
 }
 
-// K at another state of this increment stands for the one here, in the mixed equations of u and p.
+// A correction with the factor of an earlier state of this increment, in the mixed equations of u
+// and p. Nothing if there is no such factor, or if prescribed dofs still have to move.
 std::optional<VecX> Statics::correction_again() {
   if (!factor_serves_ || !prescribed_reached(u_, remaining_prescribed(u_))) return std::nullopt;
   again_ = true;
   const VecX rhs = free_residual() + on_free_rows(equilibrium_.dilatation_residual());
-  if (contact_in_tangent()) return corrected_with_contact(rhs);
-  return corrected(rhs);
+  if (contact_in_tangent()) return solve_with_contact(rhs);
+  return solve_condensed(rhs);
 }
 
-VecX Statics::with_prescribed(const VecX& free) const {
+VecX Statics::with_prescribed_dofs(const VecX& free) const {
   VecX du = remaining_prescribed(u_);
   for (Eigen::Index row = 0; row < free.size(); ++row)
     du[equilibrium_.dofs().free[row]] = free[row];
   return du;
 }
 
-// Contact in the tangent itself; again_: by the last one.
-std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
+// Contact in the tangent itself: iteratively with the mixed equations if they are used, otherwise
+// by a factorization with contact rows (again_: the last one).
+std::optional<VecX> Statics::solve_with_contact(const VecX& rhs) {
   const double factor_before = cost_.factor;
   std::optional<ContactInTangent::Answer> answer;
   dp_.resize(0);
@@ -143,12 +152,12 @@ std::optional<VecX> Statics::corrected_with_contact(const VecX& rhs) {
   if (!answer) return std::nullopt;
   r_next_ = std::move(answer->r);
   cost_.sweeps += answer->solutions;
-  return with_prescribed(answer->move);
+  return with_prescribed_dofs(answer->move);
 }
 
-// The rims of pressures add a skew part to the symmetric tangent, whose factor is near enough to
-// the whole for a few iterations.
-VecX Statics::with_free_rims(const VecX& rhs) {
+// Follower pressures with a free edge add a skew part S to the symmetric tangent K. The factor of K
+// is a good preconditioner: (I - K^-1 S) du = K^-1 rhs converges in a few iterations.
+VecX Statics::solve_with_follower_loads(const VecX& rhs) {
   constexpr double accurate = 1e-6;  // of the correction
   LinearSolver& linear = factor_.linear();
   if (!equilibrium_.loads().follow()) return linear.solve(rhs);
@@ -161,12 +170,14 @@ VecX Statics::with_free_rims(const VecX& rhs) {
   return solve_near_identity(product, linear.solve(known), accurate, 40);
 }
 
-std::optional<VecX> Statics::corrected(const VecX& rhs) {
+// Contact condensed to the candidates: forward half of the solve, contact law on the Schur
+// complement, backward half.
+std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   LinearSolver& linear = factor_.linear();
   VecX move;
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = with_free_rims(rhs);
+    move = solve_with_follower_loads(rhs);
   } else {
     LinearSolver::Half half;
     {
@@ -191,16 +202,19 @@ std::optional<VecX> Statics::corrected(const VecX& rhs) {
     const Stopwatch watch(cost_.solve);
     if (factor_.kind() == TangentFactor::Kind::whole) {
       move = linear.finish(half, change->force);
-    } else {  // where springs cancel against forces, they had better do so before the elimination
+    } else {
+      // Supporting springs cancel against contact forces: less rounding if before the elimination.
       VecX all = rhs;
       for (std::size_t i = 0; i < factor_.last().size(); ++i)
         all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
       move = linear.solve(all);
     }
   }
-  return with_prescribed(move);
+  return with_prescribed_dofs(move);
 }
 
+// The balance of the free dofs with fixed contact reactions, for solvers that know no contact
+// (KINSOL).
 FreeBalance Statics::free_balance() {
   FreeBalance b;
   b.free = equilibrium_.dofs().free;

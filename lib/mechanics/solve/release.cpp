@@ -26,7 +26,7 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
   constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
   const double work = hardest_work(statics.contacts());
   SolveReport all;
-  Statics::Trial last = statics.kept_trial();
+  Statics::Trial last = statics.saved_trial();
   double damping = work;
   for (int i = 0; i < parts && damping < stiffest * work && !interrupted(); ++i) {
     jumping(i);
@@ -39,7 +39,7 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
     const double loosened = statics.bonds().loosened();
     if (!part.converged() || (damping == 0 && loosened > settled)) {
       statics.bonds().damp(std::numeric_limits<double>::infinity());  // as they were
-      statics.back_to(last);
+      statics.restore_trial(last);
       if (damping == 0) {
         damping = 0.1 * work;
       } else {
@@ -53,7 +53,7 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
       part.evaluations = all.evaluations;
       return part;
     }
-    last = statics.kept_trial();
+    last = statics.saved_trial();
     if (loosened < settled)
       damping *= 0.1;
     else if (part.iterations <= 6)

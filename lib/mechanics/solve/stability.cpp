@@ -1,5 +1,9 @@
-// Inertia of the constrained tangent: from the Schur complement on the contact candidates that the
-// factor already holds, or from an L D L^T where there is none.
+// Stability of an equilibrium: the number of negative eigenvalues of the constrained tangent.
+//
+// By Sylvester's law of inertia it is the number of negative pivots of an L D L^T factorization. If
+// the contact is condensed, the part without candidates is positive definite, and the eigenvalues
+// of the Schur complement on the candidates decide. Contact removes directions (closed candidates)
+// and subtracts the turning of its reactions, r_n times the curvature of the indenter.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -13,8 +17,8 @@ namespace langer {
 
 namespace {
 
-// What contact does to one node: directions that are held, and r_n times the curvature of the
-// indenter there.
+// The effect of contact on one node: directions that are held, and r_n times the curvature of the
+// indenter.
 struct NodeContact {
   std::vector<Vec3> held;
   Mat3 turning = Mat3::Zero();
@@ -49,7 +53,7 @@ std::vector<NodeContact> node_contacts(const Statics& statics, const std::vector
   return out;
 }
 
-// orthonormal columns: the movements of a node that its free dofs and its contacts leave
+// Orthonormal columns: the movements of a node that its supports and contacts allow.
 MatX left_of(const NodeContact& contact, const bool* is_free) {
   MatX held = MatX::Zero(3, 3 + static_cast<Eigen::Index>(contact.held.size()));
   Eigen::Index n = 0;
@@ -62,7 +66,7 @@ MatX left_of(const NodeContact& contact, const bool* is_free) {
 }
 
 Signature signs(const MatX& M, bool zero_energy_too) {
-  constexpr int largest = 1500;  // of a dense eigenvalue problem that is waited for
+  constexpr int largest = 1500;  // rows of a dense eigenvalue problem that is still affordable
   if (M.rows() == 0) return {};
   if (positive_definite(M) && (!zero_energy_too || M.rows() > largest)) return {};
   const VecX e = symmetric_eigenvalues(M);
@@ -71,8 +75,8 @@ Signature signs(const MatX& M, bool zero_energy_too) {
           static_cast<int>((e.array().abs() <= small).count())};
 }
 
-// What contacts make of a tangent: less the turning of their reactions, and held directions as
-// springs so stiff that no soft direction is left in them.
+// Adds contacts to a tangent: subtracts the turning of their reactions, and adds held directions as
+// springs so stiff that they are no soft directions any more.
 void add_contacts(const std::vector<NodeContact>& contacts, const Dofs& dofs,
                   const Pattern& pattern, std::vector<double>& K) {
   double stiffest = 0;
@@ -98,18 +102,18 @@ void add_contacts(const std::vector<NodeContact>& contacts, const Dofs& dofs,
 
 }  // namespace
 
-void Statics::need_factor_of_accepted(double within) {
+void Statics::update_factor_of_accepted(double within) {
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
   if (factor_.kind() != TangentFactor::Kind::none &&
       (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= within * moved)
     return;
   const TangentFactor::Counts needed = factor_.counts();
-  need_tangent();
+  update_tangent();
   factorize();
-  factor_.uncount(needed);  // they count what the solution needed
+  factor_.uncount(needed);  // the counts show what the solution itself needed
 }
 
-// Where contact stands in the tangent: it is positive definite, or its pivots tell.
+// Contact in the tangent itself: it is positive definite, or its negative pivots are counted.
 Signature Statics::signature_with_contact() {
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
   std::vector<std::vector<ContactStatus>> status;
@@ -119,7 +123,7 @@ Signature Statics::signature_with_contact() {
                       factored_at_.size() == now_.u.size() &&
                       (now_.u - factored_at_).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
   if (recent && factor_.kind() == TangentFactor::Kind::whole && contact.factored(status)) return {};
-  need_tangent();
+  update_tangent();
   const std::vector<Vec3> c = indenters(now_.t, now_.travel);
   const std::vector<Vec3> c_start = indenters(before_.t, before_.travel);
   const std::vector<double> values = contact.constrained(
@@ -142,7 +146,7 @@ Signature Statics::signature() {
     return {};
   const Dofs& dofs = equilibrium_.dofs();
   using Kind = TangentFactor::Kind;
-  need_factor_of_accepted(0.02);
+  update_factor_of_accepted(0.02);
   if (factor_.kind() == Kind::whole && contacts_.empty()) return {};
   const auto contacts = contacts_.empty() ? std::vector<NodeContact>(equilibrium_.mesh().n_nodes())
                                           : node_contacts(*this, equilibrium_.mesh().X,
@@ -175,7 +179,7 @@ Signature Statics::signature() {
       const auto used = Z.leftCols(columns);
       return signs(used.transpose() * (*S * used), factor_.kind() == Kind::supported);
     }
-  need_tangent();
+  update_tangent();
   std::vector<double> K = equilibrium_.K();
   add_contacts(contacts, dofs, equilibrium_.pattern(), K);
   return {factor_.linear().negative_pivots(K), 0};

@@ -1,12 +1,19 @@
-// Assembler of one body with supports and rigid contacts at a value of the path parameter t.
-// Holds the last accepted state and the state on trial; gives the nonlinear solvers their Problem.
-//   K dx = -(F_int - F_ext - R) - K_fp du_p      with R solved for at every linearisation (condensed bipotential), [A23] eqs
-//   24-32
-// The increment: its trial state, residual, corrections and how it is accepted. How the tangent is
-// factorized stands in solve/tangent_factor.hpp, the contact law on it in
-// solve/contact_linearisation.hpp. Prescribed displacements and the indenter's movement enter the
-// linear system, never the state first: near incompressibility the other order makes pressures of
-// 1e4 MPa and an indefinite tangent.
+// Equilibrium of one body with supports and rigid contacts, at a value of the path parameter t.
+//
+// Statics holds the last accepted state and the trial state of an increment. The nonlinear solvers
+// get their Problem from it. Each correction solves the linearised balance
+//   K dx = -(F_int - F_ext - R) - K_fp du_p
+// with the contact reactions R from the contact law (condensed bipotential), [A23] eqs 24-32.
+// Prescribed displacements du_p and the movement of the indenter enter this linear system first
+// and the state afterwards. The other order would make pressures of 1e4 MPa and an indefinite
+// tangent near incompressibility.
+//
+// The sources of the class, by topic:
+//   increment.cpp     predict the trial state, accept it
+//   balance.cpp       residual, tolerances, contact law: is the trial in equilibrium?
+//   contact_step.cpp  linearise, condense the contact, solve for a correction
+//   stability.cpp     signs of the eigenvalues of the constrained tangent
+//   statics_bonds.cpp adhesion
 #pragma once
 
 #include <memory>
@@ -24,7 +31,7 @@
 
 namespace langer {
 
-// Where a body stands: enough to continue from.
+// The state of a body, complete enough to continue from.
 struct BodyState {
   double t = 0;
   VecX u;  // (3 n) [mm]
@@ -61,21 +68,21 @@ class Statics {
   Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
           const StaticsOptions& options);
 
-  void begin(double t);  // put the trial state at the start of an increment to t
-  void begin_anew() { begin(t_); }
+  void begin(double t);  // starts an increment to t: predicts its trial state
+  void restart() { begin(t_); }
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
-  // Where indenters adhere: bonds on trial, and what moves the trial within an increment
-  // (solve/release.hpp).
+  // Adhesion: the bonds of the trial state, and the functions by which an increment with bonds that
+  // break moves its trial state (solve/release.hpp).
   Bonds& bonds() { return bonds_; }
   const Bonds& bonds() const { return bonds_; }
   struct Trial {
     VecX u;
     Reactions r;
   };
-  Trial kept_trial() const { return {u_, r_}; }
-  void back_to(const Trial& trial);
+  Trial saved_trial() const { return {u_, r_}; }
+  void restore_trial(const Trial& trial);
   double stored() const;                         // in body and bonds, of the trial
   double work_of_loads(const VecX& from) const;  // on the way to the trial, as they are now
   void jumped(double work, double released) {
@@ -133,9 +140,9 @@ class Statics {
   bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 
  private:
-  friend class StateTangent;   // solve/state_tangent.hpp
-  bool keeps_rate() const;        // imposed displacements, as in the last increment
-  void extrapolate(double s);  // by s times the last increment
+  friend class StateTangent;      // solve/state_tangent.hpp
+  bool continues_motion() const;  // imposed displacements, as in the last increment
+  void extrapolate(double s);     // by s times the last increment
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
   IncrementMove increment_move(const VecX& expected) const;  // refers to `expected`
@@ -147,17 +154,17 @@ class Statics {
   bool contact_law_holds(const VecX& u) const;
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
-  std::optional<VecX> corrected(const VecX& rhs);
-  VecX with_free_rims(const VecX& rhs);
-  std::optional<VecX> corrected_with_contact(const VecX& rhs);
-  VecX with_prescribed(const VecX& free) const;
+  std::optional<VecX> solve_condensed(const VecX& rhs);
+  VecX solve_with_follower_loads(const VecX& rhs);
+  std::optional<VecX> solve_with_contact(const VecX& rhs);
+  VecX with_prescribed_dofs(const VecX& free) const;
   Signature signature_with_contact();
-  void need_tangent();
+  void update_tangent();
   bool factorize();
-  void need_factor_of_accepted(double within);  // a share of the step's movement
+  void update_factor_of_accepted(double within);  // a share of the step's movement
   TangentFactor&
   condensed_factor();  // the one of the body, or where contact stands in its tangent one beside it
-  double price() const;  // of a correction with a new tangent in units of one with the last
+  double cost_ratio() const;  // of a correction with a new tangent in units of one with the last
   bool admissible(const VecX& u) const;
   bool slips_away() const;
   void moved(const VecX& du, double step);
@@ -168,7 +175,7 @@ class Statics {
   std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
   void begin_bonds();
   void accept_bonds();
-  void bring_to_touch();  // the indenter under force control, where it bears nothing
+  void move_to_touch();  // the indenter under force control, where it bears nothing
   bool force_is_given() const;
   VecX remaining_prescribed(const VecX& u) const;
   bool prescribed_reached(const VecX& u, const VecX& remaining) const;
@@ -200,7 +207,7 @@ class Statics {
   bool factor_serves_ = false;  // also for other corrections of this increment
   bool again_ = false;          // the last correction was such a one
   bool of_accepted_ = false;    // the factor is that of the accepted state
-  std::unique_ptr<TangentFactor> beside_;
+  std::unique_ptr<TangentFactor> second_factor_;
   bool unsettled_ = false;  // the remainder's modulus is not yet that of where a FreeBalance was
                             // left (linear_dilatation)
 };

@@ -24,7 +24,7 @@ void Statics::accept_bonds() {
   now_.in_bonds.stored = stored();
 }
 
-void Statics::back_to(const Trial& trial) {
+void Statics::restore_trial(const Trial& trial) {
   u_ = trial.u;
   r_ = r_next_ = trial.r;
   K_current_ = factor_serves_ = again_ = false;

@@ -20,7 +20,7 @@ inline SolveReport equilibrium_by(const std::variant<NewtonOptions, KinsolOption
   Problem anew = problem;  // the tangent of the state before led astray: the increment as it would
                            // be without one
   anew.begins_again = false;
-  statics.begin_anew();
+  statics.restart();
   return newton(anew, statics.trial(), options);
 }
 
