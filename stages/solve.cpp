@@ -6,7 +6,7 @@
 // estimate meets the request. Several ranks can share a run: rank 0 alone prints and writes.
 #include <csignal>
 
-#include "accuracy/estimate/say_errors.hpp"
+#include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
 #include "identification/inverse/uncertainty.hpp"
@@ -52,9 +52,9 @@ Case read_case(const Job<SolveConfig>& job) {
 }
 
 // Why a single rank solves this job, whatever its body. Empty if ranks may share it.
-std::string single_rank_reason(const Job<SolveConfig>& job) {
+std::string idle_reason(const Job<SolveConfig>& job) {
   if (!ranks()) return "";
-  return why_one_rank(job.config, job.has("mirror") && !job.dry_run);
+  return single_rank_reason(job.config, job.has("mirror") && !job.dry_run);
 }
 
 void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
@@ -70,7 +70,7 @@ std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
   if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
   const MirrorTask task{config,          input.material,      job.where, job.identity,
                         input.mesh_file, job.input("mirror"), job.output};
-  return take_image(job.voice(), task);
+  return copy_mirrored_solution(job.voice(), task);
 }
 
 // The part of a worker rank in a shared run: it follows the same path and neither prints nor
@@ -102,12 +102,12 @@ struct Observers {
   void prepare(const Case& input, const SolveConfig& config, Run& run, RunWatch& watch) {
     const Job<SolveConfig>& job = input.job;
     by_first(run.shared_by(), [&] {
-      need_memory(run.statics, watch.of_mesh(), config.threads);
+      check_memory(run.statics, watch.of_mesh(), config.threads);
       loose = held_by_contact(run, job.where);
       sensitivity.emplace(run, config, job.where);
       uncertainty.emplace(input.parameters, run, *sensitivity);
       recording.emplace(run, watch, config, job.identity, job.output,
-                        recovered.beside(uncertainty->beside(sensitivity->companion())));
+                        recovered.beside(uncertainty->beside(sensitivity->observer())));
       return true;
     });
   }
@@ -125,17 +125,18 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
   SolveConfig config = model.config();
   Run run(model.mesh(), config, input.material, job.where, model.at_a_point(),
-          single_rank_reason(job).empty());
+          idle_reason(job).empty());
   if (ranks() && !ranks()->first()) {
     run_worker_rank(run, job.dry_run, config);
     return Summaries{};
   }
-  if (!run.why_alone.empty()) report_idle_ranks(job, run.why_alone);
+  if (!run.serial_reason.empty()) report_idle_ranks(job, run.serial_reason);
 
-  const double fibre_jump = say_scene(job.voice(), run);
+  const double fibre_jump = report_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
-  if (job.dry_run) return say_forecast(job.voice(), config, input.material, job.where, run, watch);
+  if (job.dry_run)
+    return report_forecast(job.voice(), config, input.material, job.where, run, watch);
 
   Observers observers(run, config);
   observers.prepare(input, config, run, watch);
@@ -152,8 +153,8 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   std::optional<EndsSoon> during_estimate(std::in_place);
   Recording& recording = *observers.recording;
   const PathErrors errors =
-      say_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
-                 observers.recovered, watch.contact_warnings().empty());
+      report_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
+                    observers.recovered, watch.contact_warnings().empty());
   const Decision decision = model.decide(errors, run.mesh);
   if (decision.action == Action::refine) {
     if (interrupted()) recording.stopped_in_estimate();
@@ -180,7 +181,7 @@ Summaries solve(const Job<SolveConfig>& job) {
   // A worker rank notes a signal and waits for rank 0, which ends the run for all.
   std::optional<Interruptible> worker_signals;
   if (ranks() && !ranks()->first()) worker_signals.emplace();
-  if (const std::string reason = single_rank_reason(job); !reason.empty()) {
+  if (const std::string reason = idle_reason(job); !reason.empty()) {
     if (!ranks()->first()) return {};
     report_idle_ranks(job, reason);
   }

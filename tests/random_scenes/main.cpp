@@ -112,7 +112,8 @@ Solved solved_once(const SolveConfig& config, double seconds) {
         estimated(config, config.material, nowhere, run, end.last, out.path, {});
     out.errors = found.at_end, out.along = found.along;
   } catch (const Failure& failure) {
-    if (failure.code() != Exit::not_converged) throw;  // else as accuracy/say_errors.hpp: not known
+    if (failure.code() != Exit::not_converged)
+      throw;  // else as accuracy/report_errors.hpp: not known
   }
   return out;
 }
@@ -145,7 +146,7 @@ Answer by_default(SolveConfig config) {
   Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
   RecoveredPath recovered(run, config, recovered_by_default(config, run));
   Answer answer;
-  const Companion beside = recovered.beside({});
+  const Observer beside = recovered.beside({});
   RunWatch watch(run, config, nowhere, {});
   RunListener watched;
   watched.of_part = [&](StepRecord& record) {

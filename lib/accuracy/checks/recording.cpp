@@ -58,12 +58,12 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
 }  // namespace
 
 Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
-                     Companion companion)
+                     Observer observer)
     : run_(run),
       watch_(watch),
       output_(output),
       config_(identity.config),
-      companion_(std::move(companion)),
+      observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
       collect_(by_refinement(config)
                    ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
@@ -75,7 +75,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
               watch.kept(step);
               run.replay(step);
               stress_.kept(step);
-              if (companion_.kept) companion_.kept(step);
+              if (observer_.kept) observer_.kept(step);
               return true;
             }),
       resumed_(file_.resumed()) {
@@ -130,7 +130,7 @@ RunEnd Recording::along_the_path(Progress& progress) {
     progress.accepted(record, report);
   };
   if (resumed_) progress.resumed(n_steps(), resumed_->t);
-  RunEnd end = run_.follow(companion_.along ? companion_.along(std::move(listener)) : listener);
+  RunEnd end = run_.follow(observer_.along ? observer_.along(std::move(listener)) : listener);
   if (resumed_ && end.last.u.empty()) end.last = *resumed_;  // it was at the end
   return end;
 }

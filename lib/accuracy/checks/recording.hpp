@@ -14,7 +14,7 @@
 namespace langer {
 
 // Somebody who goes beside the run and adds to its records; each may be empty.
-struct Companion {
+struct Observer {
   std::function<void(const StepRecord& whole)> kept = {};  // of an earlier run, one after the other
   std::function<RunListener(RunListener listener)> along =
       {};  // who follows the run in place of `listener`
@@ -25,7 +25,7 @@ class Recording {
   // Refers to run and watch, which are put after the last step that is kept. Throws Failure(input)
   // where the file cannot be written.
   Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity,
-            const std::string& output, Companion companion = {});
+            const std::string& output, Observer observer = {});
 
   int n_steps() const { return file_.n_steps(); }
   bool continues() const { return resumed_.has_value(); }
@@ -54,7 +54,7 @@ class Recording {
   Run& run_;
   RunWatch& watch_;
   std::string output_, config_;
-  Companion companion_;
+  Observer observer_;
   CellStressRecorder stress_;
   std::function<void(const StepRecord&)> collect_;
   std::vector<StepForces> forces_;

@@ -308,16 +308,16 @@ namespace {
 
 // What an estimate by refinement has solved.
 struct Solutions {
-  Family family, alike;  // hex8; the cells of the run, where these are others
+  Family family, same_cells;  // hex8; the cells of the run, where these are others
   std::vector<SolvedPath>
       other;  // in other increments on the longest cells of the family, where the path matters
   std::map<Truncation, std::vector<SolvedPath>> wide;
 
   // meshes of the kind that tells: stresses and what lies far from the contact are those of the
   // cells
-  const Family& telling(const Valued& q) const {
-    if ((q.of_force() && !family.of.empty()) || alike.of.empty()) return family;
-    return alike;
+  const Family& meshes_for(const Valued& q) const {
+    if ((q.of_force() && !family.of.empty()) || same_cells.of.empty()) return family;
+    return same_cells;
   }
   // what the body leaves out, on the longest cells
   std::vector<ErrorEstimate::Part> left_out(const Valued& q) const {
@@ -326,7 +326,7 @@ struct Solutions {
       const auto at_end = [&](const SolvedPath& path) {
         return force_at(path.path, q.name, 1);
       };
-      const double f = at_end(telling(q).of.back());
+      const double f = at_end(meshes_for(q).of.back());
       if (f != 0)
         parts.push_back({names(truncation)[static_cast<int>(truncation)],
                          q.value / f * beyond(f, at_end(two[0]), at_end(two[1]))});
@@ -341,8 +341,8 @@ Solutions solve_all(const Refinements& refined, const SolvedPath& itself,
   all.family.length = refined.length;
   if (refined.own) all.family.of.push_back(itself);
   for (const SolveConfig& scene : refined.hex8) all.family.of.push_back(solved(scene));
-  if (!refined.hex27.empty()) all.alike = {refined.hex27_length, {itself}};
-  for (const SolveConfig& scene : refined.hex27) all.alike.of.push_back(solved(scene));
+  if (!refined.hex27.empty()) all.same_cells = {refined.hex27_length, {itself}};
+  for (const SolveConfig& scene : refined.hex27) all.same_cells.of.push_back(solved(scene));
   if (refined.per_change != 0) all.other.push_back(solved(refined.other_increments));
   for (const auto& [truncation, scenes] : refined.wider)
     for (const SolveConfig& scene : scenes) all.wide[truncation].push_back(solved(scene));
@@ -441,10 +441,10 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                           const std::vector<double>& in_increments) {
     double order = 1;
     if (q.name != "von_mises_max") order = order_of_force(config);
-    const auto limit = limit_of(all.telling(q).length, on_meshes, order);
+    const auto limit = limit_of(all.meshes_for(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
     std::optional<ObservedLaw> law;
-    if (observes) law = observed_law(all.telling(q).length, on_meshes, order);
+    if (observes) law = observed_law(all.meshes_for(q).length, on_meshes, order);
     double increments = 0;
     if (in_increments.size() == 2) {
       increments = refined.per_change * (in_increments[1] - in_increments[0]);
@@ -460,7 +460,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       e.grows = law->grows && q.name == "von_mises_max";
     }
     const double touching =
-        touching_at(all.telling(q).of.front().path, q.of_force() ? q.name : "force", t);
+        touching_at(all.meshes_for(q).of.front().path, q.of_force() ? q.name : "force", t);
     const bool of_contact = q.of_force() || q.of_travel();
     if (q.name == "von_mises_max")
       e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) *
@@ -478,7 +478,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     return std::optional(e);
   };
   Family increments;
-  const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.alike : all.family).of;
+  const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.same_cells : all.family).of;
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
   const std::optional<std::string> asked = config.accuracy ? config.accuracy->of : std::nullopt;
@@ -489,7 +489,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     }
     constexpr double no_stress = 1e-10;  // [MPa], as after an unloading
     if (q.name == "von_mises_max" && q.value < no_stress) continue;
-    const Family& meshes_of_q = all.telling(q);
+    const Family& meshes_of_q = all.meshes_for(q);
     const bool on_path = q.of_force() || q.of_travel();
     double t = 1;
     if (on_path) t = judged_at(config, itself.path, q.name);
@@ -522,7 +522,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   }
   if (asked && std::ranges::none_of(out.at_end, [](const auto& e) { return e.asked; }))
     throw not_in_scene(*asked, itself.found, where);
-  out.growth = (all.alike.of.empty() ? all.family : all.alike).growth();
+  out.growth = (all.same_cells.of.empty() ? all.family : all.same_cells).growth();
   return out;
 }
 

@@ -102,13 +102,13 @@ RecoveredPath::RecoveredPath(const Run& run, const SolveConfig& config, bool wan
   if (wanted) body_ = std::make_unique<Body>(body_of(run));
 }
 
-Companion RecoveredPath::beside(Companion companion) {
-  if (!wanted()) return companion;
-  return {[this, also = companion.kept](const StepRecord& whole) {
+Observer RecoveredPath::beside(Observer observer) {
+  if (!wanted()) return observer;
+  return {[this, also = observer.kept](const StepRecord& whole) {
             if (also) also(whole);
             look_at(whole);
           },
-          [this, along = companion.along](RunListener listener) {
+          [this, along = observer.along](RunListener listener) {
             listener.of_whole = [this, also = std::move(listener.of_whole)](
                                     StepRecord& whole, const SolveReport& report) {
               if (also) also(whole, report);

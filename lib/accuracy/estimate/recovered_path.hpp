@@ -35,7 +35,7 @@ class RecoveredPath {
   // Refers to run; nobody follows it unless `wanted`.
   RecoveredPath(const Run& run, const SolveConfig& config, bool wanted);
   bool wanted() const { return body_ != nullptr; }
-  Companion beside(Companion companion);
+  Observer beside(Observer observer);
   // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be
   // trusted. resolved: contact is, by the cells (watch/contact_watch.hpp)
   PathErrors errors(const StepRecord& last, const std::vector<Valued>& found,

@@ -91,7 +91,7 @@ RunListener Sensitivity::along(RunListener listener) {
   return listener;
 }
 
-Companion Sensitivity::companion() {
+Observer Sensitivity::observer() {
   if (parameters().empty()) return {};
   return {[this](const StepRecord& whole) { kept(whole); },
           [this](RunListener listener) {

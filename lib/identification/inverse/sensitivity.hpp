@@ -32,7 +32,7 @@ class Sensitivity {
   // Before a run is resumed: every step that is kept, in order.
   void kept(const StepRecord& whole);
 
-  Companion companion();  // of a Recording; empty without the key
+  Observer observer();  // of a Recording; empty without the key
   std::vector<Summary> summary(const StepRecord& last)
       const;  // at the end of the path; d_force_N_d_... of the force's length
 

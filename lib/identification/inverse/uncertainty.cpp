@@ -148,8 +148,7 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
   return out;
 }
 
-// Adds the deviations to each record behind the derivatives that they need.
-Companion Uncertainty::beside(Companion sensitivity) const {
+Observer Uncertainty::beside(Observer sensitivity) const {
   if (known_.names.empty()) return sensitivity;
   return {sensitivity.kept, [this, along = sensitivity.along](RunListener listener) {
             const auto next = listener.of_whole;

@@ -54,8 +54,8 @@ class Uncertainty {
       : known_(std::move(known)), run_(run), sensitivity_(sensitivity) {}
   // whole: with the derivatives that Sensitivity writes
   std::vector<ForceUncertainty> of(const StepRecord& whole) const;
-  Companion beside(
-      Companion sensitivity) const;  // who writes them, behind it; nobody without parameters
+  Observer beside(
+      Observer sensitivity) const;  // who writes them, behind it; nobody without parameters
   void write(StepRecord& whole)
       const;  // scalars force_deviation, force_<contact>_deviation, reaction_<set>_deviation
 

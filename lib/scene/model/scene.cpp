@@ -28,9 +28,9 @@ namespace {
 using Find = std::function<Place(const std::string&)>;
 
 // What is asked of a scene's nodes, by sets and directions, and what is wrong with it.
-class Nodes {
+class ConstraintBuilder {
  public:
-  Nodes(const Mesh& mesh, const Find& where)
+  ConstraintBuilder(const Mesh& mesh, const Find& where)
       : mesh_(mesh),
         where_(where),
         named_by_(3 * static_cast<std::size_t>(mesh.n_nodes())),
@@ -53,24 +53,24 @@ class Nodes {
     return none;
   }
 
-  // false, and an error, where the same direction of the node was told something else
+  // false, and an error, where the key prescribes another movement in the same direction
   bool prescribe(int node, int axis, const History& to, const std::string& key,
                  const std::optional<Turn>& turn = {}) {
     const std::size_t dof = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
-    const Prescribed told{static_cast<int>(dof), to.value, to.factor, turn};
-    if (!named_by_[dof].empty() && !to_[dof].moves_as(told)) {
+    const Prescribed wanted{static_cast<int>(dof), to.value, to.factor, turn};
+    if (!named_by_[dof].empty() && !to_[dof].moves_as(wanted)) {
       const bool other_way = to_[dof].value == to.value;
       errors.push_back(
           {where_(key), key,
-           fmt::format("asks for {} at a node that {} sets to {}{}", words(told), named_by_[dof],
+           fmt::format("asks for {} at a node that {} sets to {}{}", words(wanted), named_by_[dof],
                        words(to_[dof], false),
                        other_way && !turn && !to_[dof].turn ? " by another history" : ""),
            "one value for each direction of a node", ""});
       return false;
     }
     named_by_[dof] = key;
-    to_[dof] = told;
-    prescribed.push_back(told);
+    to_[dof] = wanted;
+    prescribed.push_back(wanted);
     return true;
   }
 
@@ -78,11 +78,11 @@ class Nodes {
   std::vector<Error> errors;
 
  private:
-  static std::string words(const Prescribed& told, bool with_name = true) {
+  static std::string words(const Prescribed& wanted, bool with_name = true) {
     std::string name;
-    if (with_name) name = fmt::format("{} = ", "xyz"[told.dof % 3]);
-    if (told.turn) return fmt::format("{}{} mm and a rotation", name, told.value);
-    return fmt::format("{}{} mm", name, told.value);
+    if (with_name) name = fmt::format("{} = ", "xyz"[wanted.dof % 3]);
+    if (wanted.turn) return fmt::format("{}{} mm and a rotation", name, wanted.value);
+    return fmt::format("{}{} mm", name, wanted.value);
   }
   const Mesh& mesh_;
   const Find& where_;
@@ -216,7 +216,7 @@ std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh,
 // (nonlinear/load_path.cpp).
 template <class Point>
 void take_stops(const std::vector<Point>& points, std::optional<double> seconds,
-                const std::string& key, std::vector<double>& stops, Nodes& nodes) {
+                const std::string& key, std::vector<double>& stops, ConstraintBuilder& nodes) {
   constexpr double shortest = 1e-9;
   double before = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -233,7 +233,8 @@ void take_stops(const std::vector<Point>& points, std::optional<double> seconds,
   }
 }
 
-void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>& stops) {
+void hold_and_move(ConstraintBuilder& nodes, const SolveConfig& config,
+                   std::vector<double>& stops) {
   for (std::size_t i = 0; i < config.supports.size(); ++i) {
     const std::string key = fmt::format("supports[{}]", i);
     for (int node : nodes.of_set(config.supports[i].on, key + ".on"))
@@ -257,7 +258,8 @@ void hold_and_move(Nodes& nodes, const SolveConfig& config, std::vector<double>&
 }
 
 // All three directions of each node: what is rigid is turned or moved, and does nothing else.
-void turn(Nodes& nodes, const TurnedSet& set, const Mesh& mesh, const std::string& key) {
+void turn(ConstraintBuilder& nodes, const TurnedSet& set, const Mesh& mesh,
+          const std::string& key) {
   for (int node : set.nodes) {
     const AboutLine at = about(set.axis, mesh.X[node]);
     const Vec3 across = at.rho * at.outward;
@@ -267,7 +269,8 @@ void turn(Nodes& nodes, const TurnedSet& set, const Mesh& mesh, const std::strin
   }
 }
 
-void add_turned(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh) {
+void add_turned(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& config,
+                const Mesh& mesh) {
   scene.turned = turned_sets(config, mesh);
   auto set = scene.turned.begin();
   for (std::size_t i = 0; i < config.loads.size() && set != scene.turned.end(); ++i) {
@@ -303,7 +306,7 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
 }
 
 // How far a force pushes is not known before: candidates are named, and what is across its
-// direction moves as told.
+// direction moves as prescribed.
 void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key,
                    const Find& where, std::vector<Error>& errors) {
   if (contact.on.empty())
@@ -340,10 +343,10 @@ void refuse_far_side(const RigidContact& rigid, const std::string& on, const Mes
          "a set whose surface faces the indenter", "look at `on` and at `control.along`"});
 }
 
-// Nodes that supports hold in all directions cannot give way: an indenter whose path leads through
-// them has no equilibrium there.
-void refuse_path_through_supports(const RigidContact& rigid, const Nodes& nodes, const Mesh& mesh,
-                                  const std::string& key, const Find& where,
+// ConstraintBuilder that supports hold in all directions cannot give way: an indenter whose path
+// leads through them has no equilibrium there.
+void refuse_path_through_supports(const RigidContact& rigid, const ConstraintBuilder& nodes,
+                                  const Mesh& mesh, const std::string& key, const Find& where,
                                   std::vector<Error>& errors) {
   if (rigid.control || rigid.motion.empty()) return;
   // a start inside the body is refused as that
@@ -405,8 +408,8 @@ void refuse_wide_hole(const RigidContact& rigid, const Mesh& mesh, const std::st
        "a hole that the body reaches beyond", "look at the place of the hole and at `on`"});
 }
 
-void add_contacts(Scene& scene, Nodes& nodes, const SolveConfig& config, const Mesh& mesh,
-                  const Find& where) {
+void add_contacts(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& config,
+                  const Mesh& mesh, const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
     RigidContact rigid = indenter_of(name, contact, config.path.seconds);
@@ -496,7 +499,7 @@ int Scene::families() const {
 Scene make_scene(const SolveConfig& config, const Mesh& mesh,
                  const std::optional<Material>& material, const Find& where) {
   Scene scene;
-  Nodes nodes(mesh, where);
+  ConstraintBuilder nodes(mesh, where);
   scene.formulation = config.formulation.value_or(usual_formulation(mesh.type));
   if (scene.formulation == Formulation::linear_dilatation && !mesh.cell().second_order())
     nodes.errors.push_back({where("formulation"), "formulation",

@@ -332,14 +332,14 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
     for (int cell : quotient_.cell_image) values.push_back(kept[cell]);
   }
   tell_fibres(reduced, record);
-  tell_contacts(reduced, record);
+  expand_contacts(reduced, record);
   if (const auto found = record.scalars.find("weakest_cell");
       found != record.scalars.end() && found->second >= 0)
     found->second = quotient_.cell[static_cast<std::size_t>(found->second)];
   return record;
 }
 
-void ReducedScene::tell_contacts(const StepRecord& reduced, StepRecord& record) const {
+void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record) const {
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
   if (!contacts_.empty()) {
     const auto travel = record.scalars.find("travel_" + contacts_[0].name);

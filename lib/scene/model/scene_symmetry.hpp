@@ -74,7 +74,7 @@ class ReducedScene {
                      const std::function<Touch(int contact, int node)>& stands_for);
   void find_turned_families(const Mesh& mesh, const Scene& scene,
                             const std::vector<Symmetry>& group);
-  void tell_contacts(const StepRecord& reduced, StepRecord& record) const;
+  void expand_contacts(const StepRecord& reduced, StepRecord& record) const;
   void tell_fibres(const StepRecord& reduced, StepRecord& record) const;
 
   Quotient quotient_;

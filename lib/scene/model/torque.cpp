@@ -13,7 +13,7 @@ std::string torque_name(const std::string& name) { return "torque_" + name; }
 
 }  // namespace
 
-void tell_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
+void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
   const auto position = [&](int node) {
     return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]);
   };

@@ -10,7 +10,7 @@
 namespace langer {
 
 // whole: of the whole body, with travels of pushed indenters
-void tell_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene);
+void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene);
 
 // Of torque_<name> by name, where displacements, reactions and an indenter's travel change by those
 // of `derivative`.

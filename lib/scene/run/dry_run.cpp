@@ -28,8 +28,8 @@ std::string duration_in_words(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-void need_memory(const Statics& statics, const Statics* beside, int threads) {
-  if (beside) need_memory(*beside, nullptr, threads);
+void check_memory(const Statics& statics, const Statics* beside, int threads) {
+  if (beside) check_memory(*beside, nullptr, threads);
   // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it
   // cannot have it
   constexpr double blas = 135e6;

@@ -19,7 +19,7 @@ std::string duration_in_words(double seconds);  // "40 s"
 
 // Throws Failure(config) where the factor of the tangent, or that of a mesh beside it, exceeds the
 // memory that is free or allowed.
-void need_memory(const Statics& statics, const Statics* beside, int threads);
+void check_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
 Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,

@@ -219,7 +219,8 @@ Mirrored mirrored(const MirrorTask& task) {
   return out;
 }
 
-std::optional<std::vector<Summary>> take_image(const Voice& voice, const MirrorTask& task) {
+std::optional<std::vector<Summary>> copy_mirrored_solution(const Voice& voice,
+                                                           const MirrorTask& task) {
   const Mirrored image = mirrored(task);
   if (image.words.empty()) {
     voice.say("not the image of {}, which differs in: {}", task.of, image.why_not);

@@ -39,7 +39,8 @@ struct MirrorTask {
 };
 Mirrored mirrored(const MirrorTask& task);
 // The results of the image, written; nothing where it is not one. Says which, or why not.
-std::optional<std::vector<Summary>> take_image(const Voice& voice, const MirrorTask& task);
+std::optional<std::vector<Summary>> copy_mirrored_solution(const Voice& voice,
+                                                           const MirrorTask& task);
 
 struct MirrorOperation {
   std::string name;

@@ -32,7 +32,8 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
     : mesh(std::move(mesh_)),
       scene(make_scene(config, mesh, material, where)),
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
-      body(reduction.assembler(by_ranks ? divided(reduction, config, why_alone) : std::nullopt)),
+      body(
+          reduction.assembler(by_ranks ? divided(reduction, config, serial_reason) : std::nullopt)),
       statics(body, reduction.scene().contacts, threads_of(config)),
       path(config.path),
       solver(reduction.solver(config.solver)) {}
@@ -79,8 +80,8 @@ void Run::replay(const StepRecord& step) {
 }
 
 // Of an accepted state; At::the_end: it goes on.
-RunEnd::At Run::told(const RunListener& listener, double t, double taken, double next,
-                     const SolveReport& report, RunEnd& end) {
+RunEnd::At Run::record_step(const RunListener& listener, double t, double taken, double next,
+                            const SolveReport& report, RunEnd& end) {
   const bool at_end = at_end_of_path(t);
   if (!at_end && !listener.of_part && !listener.of_whole && !body.viscous())
     return RunEnd::At::the_end;
@@ -89,7 +90,7 @@ RunEnd::At Run::told(const RunListener& listener, double t, double taken, double
   if (listener.of_part && !listener.of_part(record)) return RunEnd::At::listener;
   std::optional<StepRecord> whole = reduction.whole(record);
   if (!whole) return RunEnd::At::not_homogeneous;
-  tell_torques(*whole, mesh, scene);
+  add_torques(*whole, mesh, scene);
   if (listener.of_whole) listener.of_whole(*whole, reduction.report(report, *whole));
   if (at_end) end.last = std::move(*whole);
   return RunEnd::At::the_end;
@@ -146,7 +147,7 @@ RunEnd Run::follow(const RunListener& listener) {
   const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
     statics.accept();
     const auto record = [&] {
-      end.at = told(listener, t, taken, next, report, end);
+      end.at = record_step(listener, t, taken, next, report, end);
       return end.at == RunEnd::At::the_end;
     };
     return on_root_rank(shared_by(), record) && (signal = signal_of(shared_by())) == 0;

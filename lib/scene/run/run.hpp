@@ -50,8 +50,8 @@ class Run {
   const Mesh mesh;
   const Scene scene;  // of the whole body
   const Reduction reduction;
-  std::string why_alone;  // where it is not divided among ranks that are there
-  Assembler body;         // balance of the part
+  std::string serial_reason;  // where it is not divided among ranks that are there
+  Assembler body;             // balance of the part
   Statics statics;
   LoadPathOptions path;
   Solver solver;
@@ -72,8 +72,8 @@ class Run {
   RunEnd follow(const RunListener& listener = {});
 
  private:
-  RunEnd::At told(const RunListener& listener, double t, double taken, double next,
-                  const SolveReport& report, RunEnd& end);
+  RunEnd::At record_step(const RunListener& listener, double t, double taken, double next,
+                         const SolveReport& report, RunEnd& end);
   std::optional<double> increment_;  // to begin with
   std::optional<Resumed> resumed_;
 };

@@ -6,7 +6,7 @@
 
 namespace langer {
 
-double say_scene(const Voice& voice, const Run& run) {
+double report_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
   FibreJump jump = FibreJump{};

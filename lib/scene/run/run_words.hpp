@@ -12,7 +12,7 @@ namespace langer {
 
 // laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction;
 // returns the largest turn [degrees]
-double say_scene(const Voice& voice, const Run& run);
+double report_scene(const Voice& voice, const Run& run);
 
 // Motions that only contact resists, in words; empty where there are none. Throws Failure(config)
 // for a body that nothing holds.

@@ -8,7 +8,7 @@
 
 namespace langer {
 
-std::string why_one_rank(const SolveConfig& config, bool may_be_an_image) {
+std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   if (!newton) return "solver: kinsol has a factor";
   if (newton->linear == LinearBy::direct)
@@ -25,8 +25,8 @@ std::string why_one_rank(const SolveConfig& config, bool may_be_an_image) {
 
 namespace {
 
-std::string why_alone(const Reduction& reduction, const SolveConfig& config) {
-  if (std::string why = why_one_rank(config, false); !why.empty()) return why;
+std::string serial_reason(const Reduction& reduction, const SolveConfig& config) {
+  if (std::string why = single_rank_reason(config, false); !why.empty()) return why;
   if (reduction.point()) return "one hexahedron stands for the body";
   const Scene& scene = reduction.scene();
   if (ViscousPoints::needed(scene.materials)) return "its material is viscous";
@@ -42,7 +42,7 @@ std::string why_alone(const Reduction& reduction, const SolveConfig& config) {
 std::optional<Division> divided(const Reduction& reduction, const SolveConfig& config,
                                 std::string& why) {
   if (!ranks()) return std::nullopt;
-  why = why_alone(reduction, config);
+  why = serial_reason(reduction, config);
   const Mesh& mesh = reduction.mesh();
   if (why.empty() && mesh.n_cells() < ranks()->n()) why = "it has fewer cells than there are ranks";
   if (!why.empty()) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace langer {
 
 // Why one rank has to solve such a config, whatever its body; "" where several may.
-std::string why_one_rank(const SolveConfig& config, bool may_be_an_image);
+std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image);
 
 // The cells of each rank, where there are several and the body can be solved so; else why one has
 // all, empty where there is but one.

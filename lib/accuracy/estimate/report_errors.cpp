@@ -1,4 +1,4 @@
-#include "accuracy/estimate/say_errors.hpp"
+#include "accuracy/estimate/report_errors.hpp"
 
 #include <fmt/format.h>
 
@@ -66,10 +66,10 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
   return cheap;
 }
 
-PathErrors say_errors(const Voice& voice, const SolveConfig& config,
-                      const std::optional<Material>& material, const Run::Where& where, Run& run,
-                      const StepRecord& last, const Recording& recording,
-                      const RecoveredPath& recovered, bool resolved) {
+PathErrors report_errors(const Voice& voice, const SolveConfig& config,
+                         const std::optional<Material>& material, const Run::Where& where, Run& run,
+                         const StepRecord& last, const Recording& recording,
+                         const RecoveredPath& recovered, bool resolved) {
   PathErrors found;
   try {
     if (config.estimate == EstimateBy::none) return found;
@@ -90,9 +90,9 @@ PathErrors say_errors(const Voice& voice, const SolveConfig& config,
   return found;
 }
 
-std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config,
-                                  const std::optional<Material>& material, const Run::Where& where,
-                                  Run& run, const RunWatch& watch) {
+std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,
+                                     const std::optional<Material>& material,
+                                     const Run::Where& where, Run& run, const RunWatch& watch) {
   const double estimate = estimate_forecast(config, material, where, run);
   const MeshChecks checks = forecast_of_mesh(run, watch.of_mesh(), config.stability);
   return dry_run(config, run.reduction.scene(), run.body, run.statics, checks, estimate,

@@ -20,15 +20,15 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
 // Estimates and says them, and what half of them would cost; empty where config.estimate says none,
 // or where there is none (a warning: the result itself stands). resolved: contact is, by the cells.
 // Throws Failure with the signal's code where one has come.
-PathErrors say_errors(const Voice& voice, const SolveConfig& config,
-                      const std::optional<Material>& material, const Run::Where& where, Run& run,
-                      const StepRecord& last, const Recording& recording,
-                      const RecoveredPath& recovered, bool resolved);
+PathErrors report_errors(const Voice& voice, const SolveConfig& config,
+                         const std::optional<Material>& material, const Run::Where& where, Run& run,
+                         const StepRecord& last, const Recording& recording,
+                         const RecoveredPath& recovered, bool resolved);
 
 // What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
-std::vector<Summary> say_forecast(const Voice& voice, const SolveConfig& config,
-                                  const std::optional<Material>& material, const Run::Where& where,
-                                  Run& run, const RunWatch& watch);
+std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,
+                                     const std::optional<Material>& material,
+                                     const Run::Where& where, Run& run, const RunWatch& watch);
 
 // of PathErrors::along, by their names in /history of a solution
 SolutionWriter::Histories histories_of(const PathErrors& estimate);
