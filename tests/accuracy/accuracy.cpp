@@ -176,7 +176,7 @@ TEST_CASE("what is moved at its faces gets hexahedra with 27 nodes, of many cell
     const ChosenLevel level = *choose_accuracy(config, std::nullopt, true);
     CHECK((config.mesh->cells == CellType::hex27) == (level.level.cells == CellType::hex27));
     if (level.level.cells == CellType::hex27) {
-      CHECK(level.words.find("in place of the config's hex8") != std::string::npos);
+      CHECK(level.words.find("instead of the config's hex8") != std::string::npos);
       for (std::size_t i = 0; i < 3; ++i)
         CHECK(level.level.edge * std::get<Block>(config.mesh->geometry).divisions[i] ==
               divisions[i]);

@@ -46,7 +46,7 @@ accuracy: 0.5%
 ")
 run(0 ${BIN}/langer-solve pulled.yaml -o pulled.h5 --json)
 expect_said("wanted: hex27")
-expect_said("in place of the config's hex8")
+expect_said("instead of the config's hex8")
 expect_said("again with hex27")
 if(said MATCHES "starting anew")
   message(FATAL_ERROR "a level calls the steps of the one before those of another run:\n${said}")

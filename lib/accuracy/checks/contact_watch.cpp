@@ -101,13 +101,16 @@ void ContactWatch::refuse_jump(const RigidContact& contact, const std::vector<Ve
   for (int k = 1; k < parts; ++k) {
     const SurfaceLook look =
         check_.look(contact, u, from + (static_cast<double>(k) / parts) * (to - from));
-    const SurfaceLook::Spot& deepest = look.node.depth > look.facet.depth ? look.node : look.facet;
-    if (!look.swallowed && deepest.depth <= tiny) continue;
+    const SurfaceLook::Spot* deepest = &look.facet;
+    if (look.node.depth > look.facet.depth) deepest = &look.node;
+    if (!look.swallowed && deepest->depth <= tiny) continue;
+    Vec3 place = deepest->X;
+    if (look.swallowed) place = look.nearest;
     refuse(
         "contacts." + contact.name + ".motion",
         fmt::format(
             "in the increment to t = {:.4g} the indenter passes through the body near {} and touches no node",
-            t, text(look.swallowed ? look.nearest : deepest.X)),
+            t, text(place)),
         fmt::format("increments in which it moves by at most half its width, {:.3g} mm", width),
         "smaller path.first and path.largest");
   }
@@ -215,15 +218,16 @@ std::vector<std::string> ContactWatch::warnings() const {
               "the indenter is up to {:.3g} mm inside the body at {}, a node that is not in its set; a larger "
               "set is needed",
               f.node.depth, text(f.node.X)));
+    std::string meaning = "the force depends on the length of the cells";
+    if (f.share() > share_meaningless)
+      meaning = "the force is that of the cells and not of the body";
     if (f.share() > share_warned)
       lines.push_back(
           name +
           fmt::format(
               "between nodes the body is {:.3g} mm inside the indenter near {}, {:.0f} % of what it is pressed "
               "in: {}; shorten them there",
-              f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(),
-              f.share() > share_meaningless ? "the force is that of the cells and not of the body"
-                                            : "the force depends on the length of the cells"));
+              f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(), meaning));
     const bool hangs =
         scene_.contacts[k].adhesion && f.at_force.touching == 0;  // by its bonds alone
     if (f.force > 0 && !f.at_force.whole_facet && !hangs)

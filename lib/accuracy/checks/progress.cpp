@@ -6,6 +6,7 @@
 #include "core/base/memory.hpp"
 #include "core/base/say.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/mesh/reference.hpp"
 
 namespace langer {
@@ -20,12 +21,12 @@ std::string iterations(int newton, int modified) {
   return fmt::format("{} iterations", newton);
 }
 
-// of several indenters each by name: the sum of a pinch tells nothing
+// The forces on the indenters by name: in a pinch their sum is zero and says nothing.
 std::string forces_of(const StepRecord& record) {
   std::string each;
   for (const auto& [name, contact] : record.contacts)
     if (const auto found = record.scalars.find("force_" + name); found != record.scalars.end())
-      each += fmt::format("{}{} {:.5g}", each.empty() ? "" : ", ", name, found->second);
+      append(each, ", ", fmt::format("{} {:.5g}", name, found->second));
   if (each.empty()) return fmt::format("{:.5g}", record.force_ind.norm());
   return each;
 }
@@ -41,18 +42,21 @@ std::string sizes(const Run& run) {
 
 std::string residual_of(const Assessment& found) {
   if (!found.admissible) return "not admissible";
-  return fmt::format("{:.1e}",
-                     found.reference > 0 ? found.residual / found.reference : found.residual);
+  double residual = found.residual;
+  if (found.reference > 0) residual /= found.reference;
+  return fmt::format("{:.1e}", residual);
 }
 
-// a line for each with -v, else `status` rewritten
+// With -v a line for each iteration, otherwise one status line that is rewritten.
 void say_iteration(const Voice& voice, double t, int n, const Assessment& found,
                    const std::string& status) {
-  if (voice.verbose)
-    say_line("  t {:.4f}  iteration {}  residual {}{}{}", t, n, residual_of(found),
-             found.missing.empty() ? "" : "  ", found.missing);
-  else
+  if (!voice.verbose) {
     say_status(status);
+    return;
+  }
+  std::string line = fmt::format("  t {:.4f}  iteration {}  residual {}", t, n, residual_of(found));
+  if (!found.missing.empty()) line += "  " + found.missing;
+  say_line("{}", line);
 }
 
 }  // namespace
@@ -63,11 +67,13 @@ Progress::Progress(const Voice& voice, const Run& run)
       contact_(!run.scene.contacts.empty()),
       start_(wall_seconds()) {
   const Scene& scene = run.reduction.scene();
-  const int families = scene.families();
-  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run),
-             families == 0 ? "none" : std::to_string(families),
-             scene.contacts.empty() ? "none" : std::to_string(scene.contacts.size()),
-             run.shared_by() ? fmt::format("; {} ranks", run.shared_by()->n()) : "");
+  std::string families = "none";
+  if (scene.families() > 0) families = std::to_string(scene.families());
+  std::string contacts = "none";
+  if (!scene.contacts.empty()) contacts = std::to_string(scene.contacts.size());
+  std::string ranks;
+  if (run.shared_by()) ranks = fmt::format("; {} ranks", run.shared_by()->n());
+  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run), families, contacts, ranks);
 }
 
 void Progress::resumed(int steps, double t) {
@@ -76,7 +82,7 @@ void Progress::resumed(int steps, double t) {
   voice_.say("continues after {} steps, at t = {:.6g}", steps, t);
 }
 
-// what the rest takes if it goes on as so far
+// The remaining time, if the rest of the path takes as long per t as the steps so far.
 std::string Progress::left(double t) const {
   if (at_end_of_path(t) || t <= from_) return "";
   const double seconds = (wall_seconds() - start_) * (1 - t) / (t - from_);
@@ -134,8 +140,7 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min");
       stiffness != record.scalars.end()) {
-    const auto signs = record.scalars.find("negative_eigenvalues");
-    const double negative = signs == record.scalars.end() ? 0 : signs->second;
+    const double negative = value_or(record.scalars, "negative_eigenvalues", 0.0);
     line += fmt::format("  min acoustic eigenvalue {:.3g} MPa", stiffness->second);
     unstable = negative != 0 || !(stiffness->second >= 0);
     if (negative > 0) line += fmt::format("  UNSTABLE: {:.0f} negative eigenvalues", negative);

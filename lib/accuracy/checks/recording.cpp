@@ -7,6 +7,7 @@
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/text.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
 
@@ -130,7 +131,8 @@ RunEnd Recording::along_the_path(Progress& progress) {
     progress.accepted(record, report);
   };
   if (resumed_) progress.resumed(n_steps(), resumed_->t);
-  RunEnd end = run_.follow(observer_.along ? observer_.along(std::move(listener)) : listener);
+  if (observer_.along) listener = observer_.along(std::move(listener));
+  RunEnd end = run_.follow(listener);
   if (resumed_ && end.last.u.empty()) end.last = *resumed_;  // it was at the end
   return end;
 }

@@ -1,5 +1,5 @@
-// A run whose steps are kept in solution.h5 as they are made, and which goes on where one of the
-// same task was stopped.
+// A run whose steps are written to solution.h5 one by one, and which continues where an earlier run
+// of the same task was stopped.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,12 @@
 
 namespace langer {
 
-// Somebody who goes beside the run and adds to its records; each may be empty.
+// Follows a run and adds to its records, for example derivatives. Each function may be empty.
 struct Observer {
-  std::function<void(const StepRecord& whole)> kept = {};  // of an earlier run, one after the other
-  std::function<RunListener(RunListener listener)> along =
-      {};  // who follows the run in place of `listener`
+  // Called with each step of an earlier run that is continued, in order.
+  std::function<void(const StepRecord& whole)> kept = {};
+  // Wraps the listener of the run: the result is called instead of `listener`.
+  std::function<RunListener(RunListener listener)> along = {};
 };
 
 class Recording {

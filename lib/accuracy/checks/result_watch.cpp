@@ -123,11 +123,13 @@ std::string ResultWatch::stiffness() const {
   return fmt::format("bulk_modulus = {:g}", bulk_modulus(stiffest_));
 }
 
-// rounding is inverse to d = 2/bulk_modulus
+// The d or bulk modulus with which rounding allows the requested tolerance: the rounding of the
+// residual grows with the bulk modulus 2/d.
 std::string ResultWatch::soft_enough() const {
   const auto* law = std::get_if<QuadraticVolume>(&stiffest_);
-  const double d =
-      rounded_up((law ? law->d : 2 / bulk_modulus(stiffest_)) * raised_ / std::max(asked_, 1e-300));
+  double present = 2 / bulk_modulus(stiffest_);
+  if (law) present = law->d;
+  const double d = rounded_up(present * raised_ / std::max(asked_, 1e-300));
   if (law) return fmt::format("d: {:.0e}", d);
   return fmt::format("bulk_modulus: {:.0e}", 2 / d);
 }
@@ -136,15 +138,19 @@ std::vector<std::string> ResultWatch::warnings() const {
   std::vector<std::string> lines;
   const double share = std::abs(locking_.share);
   if (share > worth_saying) {
-    const bool soft = locking_.share < 0;
+    std::string cause = "the cells lock";
+    std::string size = "large";
+    if (locking_.share < 0) {
+      cause = "the volume changes within cells, which nothing opposes";
+      size = "small";
+    }
+    std::string amount = "5 % or much more";
+    if (share < known) amount = fmt::format("some {:.2g} %", 100 * share);
     const CellType type = body_.mesh().type;
     lines.push_back(fmt::format(
         "formulation {} on {}: {}, most near {}: the forces are too {} by {}; formulation: {} cures it",
         names(body_.formulation())[static_cast<int>(body_.formulation())],
-        names(type)[static_cast<int>(type)],
-        soft ? "the volume changes within cells, which nothing opposes" : "the cells lock",
-        place_text(locking_.place), soft ? "small" : "large",
-        share < known ? fmt::format("some {:.2g} %", 100 * share) : "5 % or much more",
+        names(type)[static_cast<int>(type)], cause, place_text(locking_.place), size, amount,
         names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
   }
   if (raised_ > asked_)

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "accuracy/checks/place_text.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/element/point_check.hpp"
 #include "mechanics/material/ellipticity.hpp"
 #include "results/post/nodal_fields.hpp"
@@ -82,17 +83,20 @@ std::string in_words(const StabilityReport& r) {
   const int negative = r.negative_eigenvalues();
   if (negative > 0)
     words = fmt::format("the constrained tangent has {} negative eigenvalue{}", negative,
-                        negative > 1 ? "s" : "");
+                        plural_s(negative));
   if (negative < 0) words = "the constrained tangent is singular";
   if (negative > 0 && r.breaking && r.breaking->negative > 0)
     words += fmt::format(" ({} in movements that break the symmetry)", r.breaking->negative);
-  if (std::isnan(r.stiffness))
-    words += fmt::format("{}the law has no number in cell {} at {}", words.empty() ? "" : "; ",
-                         r.cell, place_text(r.place));
-  else if (r.material_unstable())
-    words += fmt::format(
-        "{}strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue {:.3g} MPa in cell {} at {})",
-        words.empty() ? "" : "; ", percent(r.lost), r.stiffness, r.cell, place_text(r.place));
+  if (std::isnan(r.stiffness)) {
+    append(words, "; ",
+           fmt::format("the law has no number in cell {} at {}", r.cell, place_text(r.place)));
+  } else if (r.material_unstable()) {
+    append(
+        words, "; ",
+        fmt::format("strong ellipticity is lost in {} of the volume (minimum acoustic eigenvalue "
+                    "{:.3g} MPa in cell {} at {})",
+                    percent(r.lost), r.stiffness, r.cell, place_text(r.place)));
+  }
   return words;
 }
 
@@ -214,10 +218,13 @@ void StabilityWatch::Spans::add(double t, bool here) {
 
 std::string StabilityWatch::Spans::text() const {
   std::string words;
-  for (const auto& [from, to] : of)
-    words += (words.empty() ? "t = " : ", ") +
-             (from == to ? fmt::format("{:.4g}", from) : fmt::format("{:.4g} to {:.4g}", from, to));
-  return words;
+  for (const auto& [from, to] : of) {
+    std::string span = fmt::format("{:.4g}", from);
+    if (from != to) span = fmt::format("{:.4g} to {:.4g}", from, to);
+    append(words, ", ", span);
+  }
+  if (words.empty()) return "";
+  return "t = " + words;
 }
 
 void StabilityWatch::keep(const StabilityReport& r) {
@@ -251,7 +258,7 @@ std::vector<std::string> StabilityWatch::warnings() const {
     std::string line = fmt::format(
         "unstable equilibria at {}: the constrained tangent has up to {} negative eigenvalue{}; a real body would "
         "leave these states",
-        equilibrium_.text(), most_negative_, most_negative_ > 1 ? "s" : "");
+        equilibrium_.text(), most_negative_, plural_s(most_negative_));
     if (most_breaking_ > 0) {
       line += fmt::format(
           ". {} of them are movements that break the symmetry by which the body was reduced: symmetry: none "

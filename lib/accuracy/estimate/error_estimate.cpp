@@ -227,7 +227,7 @@ double one_by_one(double touching, bool section) {
 // and errors fall with h alone. So they do where a force is passed on by a clamped face; below an
 // indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
-  if (config.contacts.empty()) return is_clamped(config) ? 1 : 2;
+  if (config.contacts.empty() && is_clamped(config)) return 1;
   for (const auto& [name, contact] : config.contacts) {
     if (std::holds_alternative<Plane>(contact.rigid) ||
         std::holds_alternative<Cylinder>(contact.rigid) ||
@@ -248,8 +248,9 @@ SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>&
   SolvedPath solved;
   const double begun = cpu_seconds();
   Run run(body_mesh(config, "", where), config, material, where);
-  const RunEnd end =
-      run.follow(collecting(listener ? listener(run) : RunListener{}, config, run, solved.path));
+  RunListener progress;
+  if (listener) progress = listener(run);
+  const RunEnd end = run.follow(collecting(std::move(progress), config, run, solved.path));
   if (end.at == RunEnd::At::signal)
     throw Failure(exit_code_of(interrupted()),
                   Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
@@ -315,6 +316,10 @@ struct Solutions {
 
   // meshes of the kind that tells: stresses and what lies far from the contact are those of the
   // cells
+  const Family& any() const {
+    if (family.of.empty()) return same_cells;
+    return family;
+  }
   const Family& meshes_for(const Valued& q) const {
     if ((q.of_force() && !family.of.empty()) || same_cells.of.empty()) return family;
     return same_cells;
@@ -478,7 +483,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     return std::optional(e);
   };
   Family increments;
-  const std::vector<SolvedPath>& meshes = (all.family.of.empty() ? all.same_cells : all.family).of;
+  const std::vector<SolvedPath>& meshes = all.any().of;
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
   const std::optional<std::string> asked = config.accuracy ? config.accuracy->of : std::nullopt;
@@ -522,7 +527,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   }
   if (asked && std::ranges::none_of(out.at_end, [](const auto& e) { return e.asked; }))
     throw not_in_scene(*asked, itself.found, where);
-  out.growth = (all.same_cells.of.empty() ? all.family : all.same_cells).growth();
+  const bool same_cells_are_solved = !all.same_cells.of.empty();
+  out.growth = same_cells_are_solved ? all.same_cells.growth() : all.family.growth();
   return out;
 }
 
@@ -560,18 +566,22 @@ std::string in_words(const ErrorEstimate& e) {
   if (!e.has_limit) {
     const double increments = e.in_percent(e.increments);
     const double scatter = e.in_percent(e.scatter);
+    std::string increments_text;
+    std::string scatter_text;
+    if (increments > 0) increments_text = fmt::format(", increments {:.2g}", increments);
+    if (scatter > 0) scatter_text = fmt::format(", scatter {:.2g}", scatter);
     return fmt::format("{} (cells {:.2g} by recovery{}{}, solver {:.1g} %)", begins, cells,
-                       increments > 0 ? fmt::format(", increments {:.2g}", increments) : "",
-                       scatter > 0 ? fmt::format(", scatter {:.2g}", scatter) : "", solver);
+                       increments_text, scatter_text, solver);
   }
   std::string left_out;
-  for (const ErrorEstimate::Part& part : e.left_out)
-    left_out += fmt::format("{} {} {:+.2g}", left_out.empty() ? "; left out:" : ",", part.name,
-                            e.in_percent(part.value));
+  for (const ErrorEstimate::Part& part : e.left_out) {
+    append(left_out, ", ", fmt::format("{} {:+.2g}", part.name, e.in_percent(part.value)));
+  }
+  if (!left_out.empty()) left_out = "; left out: " + left_out + " %";
   return fmt::format(
-      "{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %{}{}); limit {:.4g}",
+      "{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %{}); limit {:.4g}",
       begins, cells, e.in_percent(e.increments), e.in_percent(e.scatter), solver, left_out,
-      left_out.empty() ? "" : " %", e.limit());
+      e.limit());
 }
 
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {

@@ -86,10 +86,14 @@ void add_longer_hex27(Refinements& refined, const SolveConfig& config) {
   for (double factor : hex27_longer) {
     SolveConfig other = config;
     Geometry& geometry = other.mesh->geometry;
-    const bool by_edge = has_edge_in_contact_radii(geometry);
-    by_edge ? scale_cells(geometry, factor) : lengthen_cells(geometry, factor);
-    if (!by_edge) any_symmetry(other);
-    refined.hex27_length.push_back(by_edge ? factor : cells / cells_along(geometry));
+    if (has_edge_in_contact_radii(geometry)) {
+      scale_cells(geometry, factor);
+      refined.hex27_length.push_back(factor);
+    } else {
+      lengthen_cells(geometry, factor);
+      any_symmetry(other);
+      refined.hex27_length.push_back(cells / cells_along(geometry));
+    }
     refined.hex27.push_back(other);
   }
 }
@@ -139,8 +143,12 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
     refined.own = refined.own && *edge * factors.back() <= lengths.fine_enough * longer.back();
     refined.edge_unresolved =
         refined.own && !is_section(geometry) && has_friction(config) && *edge > resolves_edge;
-    if (!refined.own)
-      *edge_in_contact_radii(geometry) = std::min(quadratic ? 0.5 * *edge : *edge, lengths.finest);
+    // A hex27 element of twice the length has as many nodes.
+    double same_nodes = *edge;
+    if (quadratic) same_nodes *= 0.5;
+    if (!refined.own) {
+      *edge_in_contact_radii(geometry) = std::min(same_nodes, lengths.finest);
+    }
   } else {
     if (quadratic) scale_cells(geometry, 0.5);  // as many nodes
     any_symmetry(other);

@@ -12,13 +12,13 @@ namespace langer {
 
 namespace {
 
-constexpr double worth_it = 1.0 / 3;  // of the solve
+constexpr double worth_it = 1.0 / 3;  // estimate by other meshes: share of the solve's time
 
 bool has_numbers(const SolveConfig& config) {
   return config.mesh && has_numbers_of_cells(config.mesh->geometry);
 }
 
-// CPU seconds that it will take, about; 0 where nothing is solved again
+// About the CPU seconds of the estimate; 0 if it solves nothing again.
 double estimate_forecast(const SolveConfig& config, const std::optional<Material>& material,
                          const Run::Where& where, Run& run) {
   if (!by_refinement(config) || !has_numbers(config)) return 0;
@@ -31,11 +31,12 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
   return 0;
 }
 
-// half of the cells' part by shorter cells, of the increments' by shorter ones
-void say_costs(const Voice& voice, const PathErrors& found) {
+// The cost of half the error: by smaller elements, and by shorter increments. With e ~ h^p and
+// a time that grows as h^-q, half the mesh error costs the factor 2^(q/p).
+void report_costs(const Voice& voice, const PathErrors& found) {
   if (found.growth == 0 || found.at_end.empty()) return;
   const ErrorEstimate& first = found.at_end.front();
-  constexpr double slow = 0.9;  // of an order below this, shorter cells are no way
+  constexpr double slow = 0.9;  // order below which smaller elements cost too much
   if (first.grows || first.order < slow) return;
   std::string words = fmt::format("half the cells' part of {} takes about {:.2g} times the time",
                                   first.of.name, std::pow(2, found.growth / first.order));
@@ -54,8 +55,8 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
   EstimateBy cheap = EstimateBy::none;
   if (recovered_by_default(config, run)) cheap = EstimateBy::recovery;
   if (!asked) return cheap;
-  const char* why = has_numbers(config) ? "other meshes would take more than a third of the solve"
-                                        : "the cells follow from no numbers of this config";
+  std::string why = "the cells follow from no numbers of this config";
+  if (has_numbers(config)) why = "other meshes would take more than a third of the solve";
   if (cheap == EstimateBy::recovery)
     voice.say("errors are estimated by recovery: {}", why);
   else
@@ -86,7 +87,7 @@ PathErrors report_errors(const Voice& voice, const SolveConfig& config,
   }
   for (const ErrorEstimate& e : found.at_end) voice.say("{}", in_words(e));
   for (const std::string& why : found.not_known) voice.warn(why);
-  say_costs(voice, found);
+  report_costs(voice, found);
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include "accuracy/refinement/adaptive_cells.hpp"
 #include "accuracy/refinement/constants.hpp"
 #include "accuracy/refinement/level_cost.hpp"
+#include "core/base/text.hpp"
 #include "scene/run/footprint.hpp"
 
 namespace langer {
@@ -180,12 +181,12 @@ double finest_edge(const MeshConfig& mesh, CellType first) {
                                 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
 }
 
-// What the config says stays where it is finer; what does not is told. `written`: before anything
-// was chosen.
+// Keeps the mesh size and increments of the config if they are finer than the level's, and returns
+// the others as words for a message. `written`: the config before anything was chosen.
 std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) {
   std::string replaced;
   const auto replace = [&](const std::string& what) {
-    replaced += (replaced.empty() ? "; in place of the config's " : ", ") + what;
+    append(replaced, ", ", what);
   };
   Geometry geometry = written.mesh->geometry;
   const SolveConfig usual;
@@ -268,7 +269,8 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   if (!elastic && has_friction(config) && level != levels.end() &&
       of_the_studys_kind(config, print))
     chosen.level.edge = std::min(chosen.level.edge, level->edge);
-  const std::string replaced = kept_and_replaced(written, chosen.level);
+  std::string replaced = kept_and_replaced(written, chosen.level);
+  if (!replaced.empty()) replaced = "; instead of the config's " + replaced;
   put(chosen, config);
   // what increments change of the force in the paper's scene, held, is a twentieth of this
   // (docs/time.md); the estimate judges

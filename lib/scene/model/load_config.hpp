@@ -132,12 +132,13 @@ struct LoadConfig {
     constexpr const char* kinds =
         "exactly one of displacement (with or without rotation), force, traction, pressure";
     const int n = !on_surface() + force.has_value() + traction.has_value() + pressure.has_value();
-    if (n != 1) return {{"", n == 0 ? "found no load" : "found several kinds of load", kinds, ""}};
+    if (n == 0) return {{"", "found no load", kinds, ""}};
+    if (n > 1) return {{"", "found several kinds of load", kinds, ""}};
     if (!histories().empty()) return {};
-    return {{displacement ? "displacement"
-             : force      ? "force"
-                          : "traction",
-             "found no component", "x, y or z", ""}};
+    std::string key = "traction";
+    if (displacement) key = "displacement";
+    if (force) key = "force";
+    return {{key, "found no component", "x, y or z", ""}};
   }
 };
 

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/base/fields.hpp"
+#include "core/base/text.hpp"
 #include "mechanics/mesh/frames.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/select.hpp"
@@ -32,7 +33,8 @@ struct SetConfig {
     const auto sides = side_names();
     if (!of || std::find(sides.begin(), sides.end(), *of) != sides.end()) return {};
     std::string known;
-    for (const std::string& side : sides) known += (known.empty() ? "one of " : ", ") + side;
+    for (const std::string& side : sides) append(known, ", ", side);
+    known = "one of " + known;
     return {{"of", "found \"" + *of + "\"", known, ""}};
   }
 };

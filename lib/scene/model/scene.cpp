@@ -149,20 +149,29 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                         "the key `material` or --material stands for those not named"});
       continue;
     }
-    Material material = own.material ? *own.material : *general;
+    std::optional<Material> chosen = general;
+    if (own.material) chosen = own.material;
+    Material& material = *chosen;
     if (!own.fibre_angles.empty())
       set_angles(material, own.fibre_angles, key + "fibre_angles", where, errors);
     else if (!config.fibre_angles.empty() && !own.material)
       set_angles(material, config.fibre_angles, "fibre_angles", where, errors);
     const bool follows = !own.material && own.fibre_angles.empty();
-    const auto& field = own.fibre_field || !follows ? own.fibre_field : config.fibre_field;
-    const std::string field_key = (own.fibre_field ? key : "") + "fibre_field";
+    // A body without a material of its own follows the keys at the top of the config.
+    std::optional<FibreField> field = own.fibre_field;
+    std::string field_key = key + "fibre_field";
+    std::string angles_key = key + "fibre_angles";
+    std::vector<double> angles = own.fibre_angles;
+    if (!own.fibre_field) {
+      if (follows) field = config.fibre_field;
+      field_key = "fibre_field";
+      angles_key = "fibre_angles";
+      angles = config.fibre_angles;
+    }
     if (own.fibre_field && material.fibres.empty())
       errors.push_back({where(field_key), field_key, "the material has no fibres",
                         "a material with fibres", ""});
-    refuse_angles_without_effect(own.fibre_field ? own.fibre_angles : config.fibre_angles, field,
-                                 material, (own.fibre_field ? key : "") + "fibre_angles", where,
-                                 errors);
+    refuse_angles_without_effect(angles, field, material, angles_key, where, errors);
     angles_follow = angles_follow || !own.material;
     field_follows = field_follows || (follows && !own.fibre_field);
     if (is_viscous(material) && !config.path.seconds)

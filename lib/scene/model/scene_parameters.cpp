@@ -79,8 +79,8 @@ Directions turned(const Directions& directions, const Mesh& mesh, const std::vec
     }
     if (std::find(bodies.begin(), bodies.end(), body) != bodies.end() &&
         static_cast<std::size_t>(family) < a.size()) {
-      const Vec3 axis = mesh.frames.empty() ? Vec3(Vec3::UnitY())
-                                            : Vec3(mesh.frames[static_cast<std::size_t>(e)].col(1));
+      Vec3 axis = Vec3::UnitY();
+      if (!mesh.frames.empty()) axis = mesh.frames[static_cast<std::size_t>(e)].col(1);
       Vec3& one = a[static_cast<std::size_t>(family)];
       one =
           Eigen::AngleAxisd(-by_deg * std::numbers::pi / 180, axis) * one;  // from e_x towards e_z
@@ -212,10 +212,10 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
       continue;
     }
     const double value = list_[i].value;
-    Laws laws = varied(other, mesh, i,
-                       of_[i].family >= 0 ? 137 * share
-                       : value == 0       ? share
-                                          : share * value);
+    double change = share * value;
+    if (value == 0) change = share;
+    if (of_[i].family >= 0) change = 137 * share;  // [degrees]
+    Laws laws = varied(other, mesh, i, change);
     other.materials = std::move(laws.materials);
     other.directions = std::move(laws.directions);
   }

@@ -57,6 +57,14 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
   std::vector<Error> errors;
   const bool is_round = mesh.section->of == SectionOf::axisymmetric;
   const std::string of = is_round ? "an axisymmetric section" : "a plane-strain section";
+  std::string along_axis = "a direction in the plane of x and y";
+  std::string movement = "a movement in the plane of x and y";
+  std::string shape = "a shape that stands in z = 0, or a plane normal to that";
+  if (is_round) {
+    along_axis = "a direction along y";
+    movement = "a movement along y";
+    shape = "a shape of revolution about the y axis (x = z = 0), or a plane normal to it";
+  }
   const auto refuse = [&](const std::string& key, const std::string& found,
                           const std::string& expected, const std::string& hint) {
     errors.push_back({where(key), key, found + ", on " + of, expected, hint});
@@ -81,24 +89,19 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
       refuse(key + ".rotation", "found an indenter that turns", "none",
              "nothing moves out of the plane of a section: a block is needed");
     if (!has_symmetry_of(mesh.section->of, contact.rigid))
-      refuse(key + ".rigid", "found a shape or place without its symmetry",
-             is_round
-                 ? "a shape of revolution about the y axis (x = z = 0), or a plane normal to it"
-                 : "a shape that stands in z = 0, or a plane normal to that",
+      refuse(key + ".rigid", "found a shape or place without its symmetry", shape,
              "a block is needed for others");
     if (const auto& control = contact.control;
         control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
       refuse(key + ".control.along",
              fmt::format("found [{:g}, {:g}, {:g}]", control->along[0], control->along[1],
                          control->along[2]),
-             is_round ? "a direction along y" : "a direction in the plane of x and y",
-             "a block is needed for others");
+             along_axis, "a block is needed for others");
     for (std::size_t i = 0; i < contact.motion.size(); ++i) {
       const auto& to = contact.motion[i].to;
       if (to[2] == 0 && (!is_round || to[0] == 0)) continue;
       refuse(fmt::format("{}.motion[{}].to", key, i),
-             fmt::format("found [{:g}, {:g}, {:g}]", to[0], to[1], to[2]),
-             is_round ? "a movement along y" : "a movement in the plane of x and y",
+             fmt::format("found [{:g}, {:g}, {:g}]", to[0], to[1], to[2]), movement,
              "a block is needed for others");
     }
   }

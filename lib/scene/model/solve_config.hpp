@@ -382,10 +382,8 @@ struct SolveConfig {
                          "reduce tells what the sides change"});
     }
     const bool by_cells = estimate == EstimateBy::dual || estimate == EstimateBy::recovery;
-    if (const char* key = accuracy   ? "accuracy"
-                          : fidelity ? "fidelity"
-                                     : nullptr;
-        key && !numbers && !by_cells)
+    const std::string asked = key_of_accuracy();
+    if (const std::string& key = asked; !key.empty() && !numbers && !by_cells)
       found.push_back(
           {key, other_mesh, laid_out,
            "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
@@ -393,10 +391,9 @@ struct SolveConfig {
     complain_of_seconds(found);
     const bool estimates = estimate && *estimate != EstimateBy::none;
     const bool refines = estimate == EstimateBy::refinement;
-    if (const char* key = accuracy    ? "accuracy"
-                          : fidelity  ? "fidelity"
-                          : estimates ? "estimate"
-                                      : nullptr) {
+    std::string judged = asked;
+    if (judged.empty() && estimates) judged = "estimate";
+    if (const std::string& key = judged; !key.empty()) {
       const bool pushed = std::any_of(contacts.begin(), contacts.end(),
                                       [](const auto& c) { return c.second.control; }) &&
                           !accuracy && !fidelity && !refines;  // which judge its travel
@@ -421,13 +418,18 @@ struct SolveConfig {
   }
 
  private:
+  // The key that requests an accuracy; empty if none does.
+  std::string key_of_accuracy() const {
+    if (accuracy) return "accuracy";
+    if (fidelity) return "fidelity";
+    return "";
+  }
   void complain_of_cuts(std::vector<Complaint>& found) const {
     if (!mesh || mesh->cuts.empty()) return;
     const bool by_numbers = estimate == EstimateBy::refinement || estimate == EstimateBy::automatic;
-    if (const char* key = accuracy     ? "accuracy"
-                          : fidelity   ? "fidelity"
-                          : by_numbers ? "estimate"
-                                       : nullptr)
+    std::string key = key_of_accuracy();
+    if (key.empty() && by_numbers) key = "estimate";
+    if (!key.empty())
       found.push_back(
           {key, "found beside mesh.cuts", "a mesh without cuts",
            "cells of other lengths are made from the mesh's numbers; estimate: dual judges cut cells as they are"});

@@ -12,6 +12,17 @@ namespace langer {
 
 namespace {
 
+// The direction of a movement or a load: along an axis, or against it for a negative value.
+Vec3 signed_direction(double value, const Vec3& axis) {
+  if (value < 0) return -axis;
+  return axis;
+}
+
+std::string when(const History& history) {
+  if (history.factor) return " at the end";
+  return "";
+}
+
 class Actions {
  public:
   Actions(const Mesh& mesh, const std::vector<Vec3>& u, std::optional<double> seconds)
@@ -21,25 +32,25 @@ class Actions {
 
   void hold(const std::string& set, int axis) {
     const double way = middle_[axis] - centre(set)[axis];
-    add(set, (way < 0 ? -1 : 1) * Vec3::Unit(axis), false, fmt::format("u_{} = 0", "xyz"[axis]));
+    add(set, signed_direction(way, Vec3::Unit(axis)), false, fmt::format("u_{} = 0", "xyz"[axis]));
   }
   void move(const std::string& set, int axis, const History& to) {
     if (to.value == 0) return hold(set, axis);
-    add(set, (to.value < 0 ? -1 : 1) * Vec3::Unit(axis), true,
-        fmt::format("u_{} = {:g} mm{}", "xyz"[axis], to.at(1), to.factor ? " at the end" : ""));
+    add(set, signed_direction(to.value, Vec3::Unit(axis)), true,
+        fmt::format("u_{} = {:g} mm{}", "xyz"[axis], to.at(1), when(to)));
   }
   void turn(const LoadConfig& load) {
     const History angle = history_of(load.rotation->angle, seconds_);
-    add(load.on, (angle.value < 0 ? -1 : 1) * direction(load.rotation->axis), true,
-        fmt::format("turned by {:g} degrees{}", angle.at(1), angle.factor ? " at the end" : ""));
+    add(load.on, signed_direction(angle.value, direction(load.rotation->axis)), true,
+        fmt::format("turned by {:g} degrees{}", angle.at(1), when(angle)));
   }
   void load(const LoadConfig& load) {
     for (int axis = 0; axis < 3; ++axis)
       if (const auto force = load.dead(axis); force && force->moves()) {
         const History f = history_of(*force, seconds_);
-        add(load.on, (f.value < 0 ? -1 : 1) * Vec3::Unit(axis), true,
-            fmt::format("{}_{} = {:g} {}{}", load.force ? "F" : "t", "xyz"[axis], f.at(1),
-                        load.force ? "N" : "MPa", f.factor ? " at the end" : ""));
+        std::string text = fmt::format("t_{} = {:g} MPa", "xyz"[axis], f.at(1));
+        if (load.force) text = fmt::format("F_{} = {:g} N", "xyz"[axis], f.at(1));
+        add(load.on, signed_direction(f.value, Vec3::Unit(axis)), true, text + when(f));
       }
     if (!load.pressure) return;
     const History p = history_of(*load.pressure, seconds_);
@@ -51,8 +62,8 @@ class Actions {
                        .sum()
                        .transpose();
     if (!inwards.isZero(0))
-      add(load.on, (p.value < 0 ? -1 : 1) * inwards.normalized(), true,
-          fmt::format("p = {:g} MPa{}", p.at(1), p.factor ? " at the end" : ""));
+      add(load.on, signed_direction(p.value, inwards.normalized()), true,
+          fmt::format("p = {:g} MPa{}", p.at(1), when(p)));
   }
 
   std::vector<Action> all;
@@ -61,7 +72,8 @@ class Actions {
   const std::vector<int>& nodes(const std::string& set) const {
     static const std::vector<int> none;
     const auto found = mesh_.node_sets.find(set);
-    return found == mesh_.node_sets.end() ? none : found->second;
+    if (found == mesh_.node_sets.end()) return none;
+    return found->second;
   }
   Vec3 centre(const std::string& set) const {
     Vec3 sum = Vec3::Zero();
@@ -75,7 +87,9 @@ class Actions {
     Action action;
     const std::size_t n = std::min(most, on.size());
     for (std::size_t i = 0; i < n; ++i) {
-      const int node = on[n > 1 ? i * (on.size() - 1) / (n - 1) : 0];
+      std::size_t at = 0;
+      if (n > 1) at = i * (on.size() - 1) / (n - 1);
+      const int node = on[at];
       action.at.push_back(mesh_.X[node] + u_[node]);
     }
     action.along = along;

@@ -30,14 +30,14 @@ std::string duration_in_words(double seconds) {
 
 void check_memory(const Statics& statics, const Statics* beside, int threads) {
   if (beside) check_memory(*beside, nullptr, threads);
-  // OpenBLAS maps its work space at the first product, 134 MB a thread, and tries for ever where it
-  // cannot have it
+  // OpenBLAS maps 134 MB a thread at its first product. If that fails, it tries again for ever.
   constexpr double blas = 135e6;
   const double factor = statics.size().factor_bytes;
   const double mapped = factor + blas * threads;
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
-  const double wanted = factor <= free_memory() ? mapped : factor;
+  double wanted = factor;
+  if (factor <= free_memory()) wanted = mapped;
   const double free = std::min(free_memory(), free_address());
   throw Failure(
       Exit::config,
@@ -109,19 +109,22 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
     if (const Division* division = body.division())
       line("ranks", fmt::format("{} ranks, {} cells on this one; memory of all, time of each",
                                 division->ranks->n(), body.own_cells().size()));
-    const int families = scene.families();
-    line("fibres",
-         families == 0
-             ? "off, not in the material"
-             : fmt::format("{} {}{}", families, families == 1 ? "family" : "families",
-                           scene.directions.from_field() ? ", directions from a field" : ""));
+    std::string fibres = "off, not in the material";
+    if (scene.families() == 1) fibres = "1 family";
+    if (scene.families() > 1) fibres = fmt::format("{} families", scene.families());
+    if (scene.families() > 0 && scene.directions.from_field()) {
+      fibres += ", directions from a field";
+    }
+    line("fibres", fibres);
     if (body.viscous())
       line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory",
                                   memory_in_words(body.viscous_points()->bytes())));
     if (scene.contacts.empty()) line("contact", "off, not in the scene");
-    for (const RigidContact& c : scene.contacts)
-      line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
-                                  c.mu > 0 ? fmt::format("friction {:g}", c.mu) : "no friction"));
+    for (const RigidContact& c : scene.contacts) {
+      std::string friction = "no friction";
+      if (c.mu > 0) friction = fmt::format("friction {:g}", c.mu);
+      line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(), friction));
+    }
     if (!scene.contacts.empty())
       line("",
            statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
@@ -138,18 +141,23 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
       line("tangent",
            fmt::format("{:.3g} million entries; factor {:.3g} million, {:.3g} GFLOP",
                        1e-6 * f.size.nonzeros, 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
+    std::string modified;
+    if (f.again > 0) modified = fmt::format("Newton + {:.0f} modified ", f.again);
     line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps,
-                             f.iterations,
-                             f.again > 0 ? fmt::format("Newton + {:.0f} modified ", f.again) : ""));
-    line("memory", fmt::format("{}; {} are free{}", memory_in_words(f.bytes), memory_in_words(free),
-                               f.size.factor_bytes > free ? ": this will not fit" : ""));
+                             f.iterations, modified));
+    std::string memory =
+        fmt::format("{}; {} are free", memory_in_words(f.bytes), memory_in_words(free));
+    if (f.size.factor_bytes > free) memory += ": this will not fit";
+    line("memory", memory);
+    std::string contact_share;
+    if (f.contact > 0) contact_share = fmt::format(", contact {:.2g}", f.contact);
     line(
         "time",
         fmt::format(
             "about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, {} {:.2g}, solution {:.2g}{}",
             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
             statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
-            f.contact > 0 ? fmt::format(", contact {:.2g}", f.contact) : ""));
+            contact_share));
     if (checks.seconds > 0)
       line("mesh", fmt::format("the states on the mesh take {} of CPU: balance {:.2g} s, points "
                                "{:.2g} s, factorization {:.2g} s each",
