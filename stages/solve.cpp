@@ -156,7 +156,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
       report_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
                     observers.recovered, watch.contact_warnings().empty());
   const Decision decision = model.decide(errors, run.mesh);
-  if (decision.action == Action::refine) {
+  if (decision.action == Decision::Action::refine) {
     if (interrupted()) recording.stopped_in_estimate();
     return std::nullopt;
   }
@@ -171,7 +171,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   progress.finished(end.path, run.statics, recording.seconds());
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
-  if (decision.action == Action::stop) model.require_accuracy(errors.at_end, job.output);
+  if (decision.action == Decision::Action::stop) model.require_accuracy(errors.at_end, job.output);
   const Summaries of_fibres{{"fibre_jump", fibre_jump, "deg"}};
   return joined(
       {summary_of(run, end, recording.n_steps()), results, of_fibres, watch.stability_summary()});

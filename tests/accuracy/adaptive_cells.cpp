@@ -38,7 +38,7 @@ Found adapted(const std::string& text) {
     out.percent.push_back(judged.empty() ? 1e9 : judged[0].in_percent(judged[0].total()));
     out.value.push_back(judged.empty() ? 0 : judged[0].of.value);
     REQUIRE(out.cells.size() < 9);
-    if (model.decide(errors, run.mesh).action != Action::refine) return out;
+    if (model.decide(errors, run.mesh).action != Decision::Action::refine) return out;
   }
 }
 
@@ -133,11 +133,11 @@ TEST_CASE(
   PathErrors errors;
   errors.at_end = {{{"reaction_top", "N", 2.0}, 0.06}};  // 3 %
   errors.of_cells.assign(static_cast<std::size_t>(first.n_cells()), 1);
-  REQUIRE(model.decide(errors, first).action == Action::refine);
+  REQUIRE(model.decide(errors, first).action == Decision::Action::refine);
   CHECK(model.mesh().n_cells() > first.n_cells());
   REQUIRE(model.retry_after(stuck));
   CHECK(model.mesh().n_cells() == first.n_cells());
-  CHECK(model.decide(errors, first).action == Action::stop);
+  CHECK(model.decide(errors, first).action == Decision::Action::stop);
   CHECK(!model.retry_after(stuck));
   try {
     model.require_accuracy(errors.at_end, "out.h5");

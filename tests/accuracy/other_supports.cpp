@@ -49,7 +49,7 @@ Ended asked_for(const std::string& scene, const std::string& accuracy) {
       ended.errors =
           estimated(ended.config, ended.config.material, test::nowhere, run, end.last, path, {})
               .at_end;
-      again = accurate.decide(ended.errors).action == Action::refine;
+      again = accurate.decide(ended.errors).action == Decision::Action::refine;
     } catch (const Failure& failure) {
       if (failure.code() != Exit::not_converged) throw;
       ended.words = failure.what();

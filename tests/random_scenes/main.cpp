@@ -129,7 +129,7 @@ Answer asked_for(const SolveConfig& config, double seconds) {
       answer.solved = solved_once(answer.config, seconds);
       if (answer.solved.took >= shortest)
         answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
-      again = accuracy.decide(answer.solved.errors).action == Action::refine;
+      again = accuracy.decide(answer.solved.errors).action == Decision::Action::refine;
     } catch (const Failure& failure) {
       again = accuracy.retry_after(failure);
       if (!again) throw;

@@ -89,7 +89,7 @@ accuracy: 5%
 ")
 run(0 ${BIN}/langer-mesh long_cells.yaml -o long_cells.h5 --quiet)
 run(0 ${BIN}/langer-solve small.yaml --mesh long_cells.h5 -o small.h5 --json)
-expect_said("cells under what presses are cut 4 times")
+expect_said("cells under the indenter are cut 4 times")
 expect_said("are cut into eight")
 number(force_N small)
 # 0.7718 N: hex27 on lines graded towards the sphere (docs/work_precision.md)
@@ -112,7 +112,7 @@ mesh: {bodies: [{name: below, thickness: 2}, {name: above, thickness: 2}]}
 materials: {above: {material: {matrix: {yeoh: {a1: 0.2, a2: 0.2}}, volume: {quadratic: {d: 1.0e-4}}}}}
 ")
 run(5 ${BIN}/langer-solve layers.yaml -o layers.h5 --set accuracy=5%)
-expect_said("recovery does not tell errors of such a scene: pressures across a soft layer of few cells are not seen")
+expect_said("recovery does not estimate errors of such a scene: pressures across a soft layer of few cells are not seen")
 expect_said("nothing was estimated")
 file(WRITE ${folder}/quadratic.yaml "include: configs/solve/refinement_isotropic.yaml
 mesh: {cells: hex27, geometry: {block: {origin: [-8, 0, -8], size: [16, 4, 16], divisions: [8, 3, 8]}}}

@@ -60,7 +60,7 @@ if(NOT iterations MATCHES "^iterations [01]\n" OR said MATCHES "scene 3 of 5" OR
   message(FATAL_ERROR "an estimate went on after SIGINT: ${iterations}${said}")
 endif()
 expect_said("stopped by SIGINT while its errors were estimated; the path is at its end")
-expect_said("kept: all 4 steps in estimated/solution.h5.part (the next run goes on with the estimate, --set estimate=none ends without it)")
+expect_said("kept: all 4 steps in estimated/solution.h5.part (the next run continues with the estimate, --set estimate=none ends without it)")
 file(COPY ${folder}/estimated/ DESTINATION ${folder}/without)
 run(0 ${estimated} estimated/solution.h5 --json)
 expect_said("solve: continues after 4 steps, at t = 1")

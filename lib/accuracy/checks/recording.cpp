@@ -143,7 +143,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   };
   if (end.at == RunEnd::At::listener)
     fail(Exit::not_converged, watch_.unstable(), "a stable state (on_unstable: stop)",
-         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn goes on", n_steps(),
+         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn continues", n_steps(),
                      output_));
   if (end.at == RunEnd::At::signal)
     fail(exit_code_of(interrupted()),
@@ -173,7 +173,7 @@ void Recording::stopped_in_estimate() const {
                       signal_name(interrupted())),
           "",
           fmt::format(
-              "kept: all {} steps in {}.part (the next run goes on with the estimate, --set estimate=none ends "
+              "kept: all {} steps in {}.part (the next run continues with the estimate, --set estimate=none ends "
               "without it)",
               n_steps(), output_)});
 }

@@ -167,7 +167,7 @@ std::vector<std::string> ResultWatch::warnings() const {
   if (chains_ > 0)
     lines.push_back(fmt::format(
         "the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
-        "series of five terms that the law is goes on there, the chains do not",
+        "series of five terms that the law is continues there, the chains do not",
         chains_, place_text(chains_place_), locking_stretch_));
   return lines;
 }

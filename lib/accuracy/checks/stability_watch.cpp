@@ -246,7 +246,7 @@ std::vector<std::string> StabilityWatch::warnings() const {
   std::vector<std::string> lines;
   if (signs_ && !*signs_)
     lines.push_back(
-        "whether equilibria are stable was not looked at: the tangent is solved iteratively; solver.newton.linear: direct tells, "
+        "whether equilibria are stable was not looked at: the tangent is solved iteratively; solver.newton.linear: direct shows it, "
         "stability: off asks for nothing");
   if (!outside_.of.empty())
     lines.push_back(fmt::format(

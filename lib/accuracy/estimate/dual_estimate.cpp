@@ -27,8 +27,7 @@ constexpr double balanced = 1e-4;  // dual solutions: on fine meshes of nearly i
 Failure not_known(const std::string& why) {
   return Failure(
       Exit::not_converged,
-      Error{
-          {}, "estimate", why, "", "estimate: recovery tells what the stress lacks to be smooth"});
+      Error{{}, "estimate", why, "", "estimate: recovery compares the stress with a smooth one"});
 }
 
 // Throws where no scene of the kind was measured.

@@ -59,7 +59,7 @@ std::string why_not_recovered(const Run& run) {
     return "pressures across a soft layer of few cells are not seen";
   for (const RigidContact& contact : run.scene.contacts)
     if (contact.control || contact.adhesion)
-      return fmt::format("{} does not move as told, or adheres", contact.name);
+      return fmt::format("{} does not move on a prescribed path, or adheres", contact.name);
   return "";
 }
 
@@ -141,7 +141,7 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   const bool asked = asks_for_accuracy(config_);
   PathErrors out;
   if (const std::string why = why_not_recovered(run_); !why.empty()) {
-    out.not_known = {"recovery does not tell errors of such a scene: " + why};
+    out.not_known = {"recovery does not estimate errors of such a scene: " + why};
     if (asked) return out;
   }
   if (asked && is_too_thin(run_)) return to_be_cut_everywhere(run_.mesh, across_one_cell);
@@ -155,12 +155,12 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   if (asked && !nothing_left) out.of_cells = parts(at_end, errors, last);
   if (!resolved) {
     out.not_known.push_back(
-        "errors are not told: contact is not resolved by the cells, as said above");
+        "no error estimate is available: contact is not resolved by the cells, as said above");
     return out;
   }
   if (at_end.energy_share() > beyond_telling) {
     out.not_known.push_back(fmt::format(
-        "errors are not told: by recovery they are more than {:.0f} % of the force, and that is no more than a sign that "
+        "no error estimate is available: by recovery they are more than {:.0f} % of the force, and that is no more than a sign that "
         "the cells are too long for this scene",
         100 * beyond_telling));
     return out;

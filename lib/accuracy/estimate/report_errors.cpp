@@ -61,7 +61,7 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
     voice.say("errors are estimated by recovery: {}", why);
   else
     voice.say(
-        "errors are not estimated: {}, and recovery does not tell them here; estimate: refinement is for meshes by numbers, "
+        "errors are not estimated: {}, and recovery does not estimate them here; estimate: refinement is for meshes by numbers, "
         "dual for any mesh",
         why);
   return cheap;

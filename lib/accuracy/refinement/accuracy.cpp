@@ -339,7 +339,7 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config,
             config_.estimate == EstimateBy::refinement;
   if (begins_)
     voice_.say(
-        "accuracy: the study has no scene of this kind; the error with these cells tells which ones it needs{}",
+        "accuracy: the study has no scene of this kind; the error with these cells decides which ones it needs{}",
         dry ? " (not with --dry-run)" : "");
   if (begins_ && dry) {
     const AccuracyLevel next = finest_at_once(*chosen_);
@@ -419,20 +419,20 @@ void Accuracy::take(const AccuracyLevel& level) {
 
 // The last decision on a level: accept it if it meets the request, stop otherwise.
 Decision Accuracy::final_decision(const std::vector<ErrorEstimate>& estimates) const {
-  if (!chosen_ || reached(*chosen_, estimates).met) return {Action::accept};
-  return {Action::stop, stop_reason_};
+  if (!chosen_ || reached(*chosen_, estimates).met) return {Decision::Action::accept};
+  return {Decision::Action::stop, stop_reason_};
 }
 
 Decision Accuracy::decide(const std::vector<ErrorEstimate>& estimates) {
   if (!chosen_ || config_.estimate != EstimateBy::refinement) return final_decision(estimates);
   if (estimates.empty()) {
-    if (shorter_cells()) return {Action::refine};
+    if (shorter_cells()) return {Decision::Action::refine};
     return final_decision(estimates);
   }
   begins_ = false;
   const ReachedAccuracy found = reached(*chosen_, estimates);
   const OrdersSeen orders = orders_since_before(estimates);
-  if (found.met) return {Action::accept};
+  if (found.met) return {Decision::Action::accept};
   const auto finer = finer_level(*chosen_, estimates, orders);
   if (!finer) {
     const AccuracyLevel finest = finest_level(*chosen_);
@@ -450,7 +450,7 @@ Decision Accuracy::decide(const std::vector<ErrorEstimate>& estimates) {
   }
   take(*finer);
   voice_.say("accuracy: {}; again with {}", found.words, in_words(*finer));
-  return {Action::refine};
+  return {Decision::Action::refine};
 }
 
 std::optional<double> Accuracy::wanted_share(const std::vector<ErrorEstimate>& estimates) const {
@@ -494,7 +494,7 @@ void Accuracy::require(const std::vector<ErrorEstimate>& estimates, const std::s
           where_(key), key, found_text, fmt::format("at most {:g} %", chosen_->wanted),
           fmt::format(
               "kept: {}, solved with {}; {}ask for what was reached, or say where cells are to be short: "
-              "mesh.geometry with estimate, in place of {}",
+              "mesh.geometry with estimate, instead of {}",
               output, in_words(chosen_->level), cheaper, key)});
 }
 

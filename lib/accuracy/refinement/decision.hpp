@@ -11,9 +11,8 @@
 
 namespace langer {
 
-enum class Action { accept, refine, stop };
-
 struct Decision {
+  enum class Action { accept, refine, stop };
   Action action = Action::accept;
   std::string reason = {};  // of stop; empty if the estimate alone decides
 };

@@ -40,7 +40,7 @@ Mesh ModelChoice::mesh() {
   if (!accuracy_.cuts() || !reason_not_refinable(mesh).empty()) return mesh;
   cells_.emplace(mesh);
   if (const int times = shorten_under(config(), *cells_); times > 0)
-    voice_.say("accuracy: cells under what presses are cut {} time{}: {} in place of {}", times,
+    voice_.say("accuracy: cells under the indenter are cut {} time{}: {} instead of {}", times,
                plural_s(times), cells_->mesh().n_cells(), mesh.n_cells());
   return cells_->mesh();
 }
@@ -49,7 +49,7 @@ Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   if (!section_.accurate(errors.at_end)) {
     before_.reset();
     accuracy_ = of_model();
-    return {Action::refine};
+    return {Decision::Action::refine};
   }
   if (is_last_) return accuracy_.final_decision(errors.at_end);
   std::optional<Level> here;
@@ -59,11 +59,11 @@ Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   if (errors.of_cells.empty()) {
     decision = accuracy_.decide(errors.at_end);
   } else if (cut(errors, mesh)) {
-    decision = {Action::refine};
+    decision = {Decision::Action::refine};
   } else {
     decision = accuracy_.final_decision(errors.at_end);
   }
-  if (decision.action == Action::refine) {
+  if (decision.action == Decision::Action::refine) {
     before_ = std::move(here);
     return decision;
   }
@@ -75,7 +75,7 @@ Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   back_to_level_before(
       fmt::format("the error of a finer level is estimated at {:.2g} %, and {:.2g} % before",
                   *percent, *before_->percent));
-  return {Action::refine};
+  return {Decision::Action::refine};
 }
 
 void ModelChoice::back_to_level_before(const std::string& why) {

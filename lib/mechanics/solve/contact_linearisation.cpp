@@ -252,7 +252,12 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
     Answer answer = law.at(next, best.answer.r);
     sweeps += answer.sweeps;
     if (!answer.solved) {  // too far
-      (next > 0 ? high : low) = next, next *= 0.5;
+      if (next > 0) {
+        high = next;
+      } else {
+        low = next;
+      }
+      next *= 0.5;
       continue;
     }
     const Point here{next, law.force(answer) - force};

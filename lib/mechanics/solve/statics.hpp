@@ -12,7 +12,7 @@
 //   increment.cpp     predict the trial state, accept it
 //   balance.cpp       residual, tolerances, contact law: is the trial in equilibrium?
 //   contact_step.cpp  linearise, condense the contact, solve for a correction
-//   stability.cpp     signs of the eigenvalues of the constrained tangent
+//   statics_stability.cpp  signs of the eigenvalues of the constrained tangent
 //   statics_bonds.cpp adhesion
 #pragma once
 

@@ -4,6 +4,8 @@
 
 namespace langer {
 
+// Adds the adhesive forces, the damage of each bond and the energies to a record. Adhesion pulls at
+// the indenter too: its resultant belongs to the recorded force.
 void tell_bonds(const Statics& statics, StepRecord& record) {
   const Bonds& bonds = statics.bonds();
   const BodyState& state = statics.accepted();
@@ -31,6 +33,7 @@ void tell_bonds(const Statics& statics, StepRecord& record) {
   record.scalars["work_of_jumps"] = state.in_bonds.work_of_jumps;
 }
 
+// The recorded beta is -1 for a candidate that has never touched.
 Bond bond_of(const ContactRecord& contact, std::size_t candidate) {
   return {std::max(contact.beta[candidate], 0.0), contact.bonded_at[candidate],
           contact.beta[candidate] >= 0};
@@ -43,6 +46,7 @@ BondEnergy bond_energies(const StepRecord& step) {
           of.at("energy") + of.at("adhesion_stored")};
 }
 
+// The inverse of tell_bonds: the bonds of a recorded state, from which a run continues.
 void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts,
                 BodyState& state) {
   state.in_bonds = bond_energies(step);

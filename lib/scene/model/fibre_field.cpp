@@ -41,6 +41,7 @@ void add_point(MeasuredDirections& points, const Six& v, const Place& where,
   points.a.push_back(a.stableNormalized());
 }
 
+// Columns are found by the names in the config; rows are points.
 MeasuredDirections from_csv(const PointField& field) {
   const CsvTable table = read_table(field.file.path);
   const auto refuse = [&](int line, int column, const std::string& key, const std::string& found,
@@ -73,7 +74,7 @@ MeasuredDirections from_csv(const PointField& field) {
   return points;
 }
 
-// one dataset of n numbers for each column
+// The same from an HDF5 file: one dataset of n numbers for each column.
 MeasuredDirections from_hdf5(const PointField& field) {
   const h5::File file = h5::File::open(field.file.path);
   std::array<std::vector<double>, 6> column;
@@ -101,14 +102,21 @@ MeasuredDirections from_hdf5(const PointField& field) {
 
 MeasuredDirections read_directions(const PointField& field) {
   const std::string type = std::filesystem::path(field.file.path).extension().string();
-  MeasuredDirections points =
-      type == ".h5" || type == ".hdf5" || type == ".hdf" ? from_hdf5(field) : from_csv(field);
+  MeasuredDirections points;
+  if (type == ".h5" || type == ".hdf5" || type == ".hdf") {
+    points = from_hdf5(field);
+  } else {
+    points = from_csv(field);
+  }
   if (points.x.empty())
     throw Failure(Exit::input,
                   Error{{field.file.path, 0, 0}, "", "found no points", "at least one row", ""});
   return points;
 }
 
+// The direction at x. A fibre has no sign, so directions are averaged as tensors:
+//   A(x) = sum_i w_i a_i a_i^T,  w_i = 1 / |x - x_i|^power,
+// and the direction is the eigenvector of the largest eigenvalue. Zero if it is not unique.
 Vec3 direction_at(const MeasuredDirections& points, const Vec3& x, Between method, double power) {
   std::size_t near = 0;
   for (std::size_t i = 1; i < points.x.size(); ++i)
@@ -154,6 +162,8 @@ FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<co
   return directions;
 }
 
+// The largest angle between the fibres of two cells that share a facet: a measure of how well the
+// mesh resolves a field of directions.
 FibreJump largest_jump(const Mesh& mesh, const Directions& directions) {
   FibreJump jump;
   std::map<std::array<int, 4>, int> open;  // facets that one cell has shown so far

@@ -1,4 +1,5 @@
 #include "scene/model/make_mesh.hpp"
+#include "core/base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@ namespace langer {
 
 namespace {
 
+// Selects the sets of the config; facets of a set are those with all nodes in it.
 void name_sets(Mesh& mesh, const MeshConfig& config) {
   const std::vector<int> all = all_nodes(mesh);
   const std::vector<Facet> outer = boundary(mesh);
@@ -30,6 +32,7 @@ void name_sets(Mesh& mesh, const MeshConfig& config) {
   }
 }
 
+// Assigns cells to bodies: by the file, or by the thicknesses of layers from the bottom to the top.
 void name_bodies(Mesh& mesh, const MeshConfig& config) {
   if (!mesh.bodies.empty()) {  // those of a file
     for (std::string& body : mesh.bodies)
@@ -67,8 +70,8 @@ void name_bodies(Mesh& mesh, const MeshConfig& config) {
   }
 }
 
-// Lines of a grid go through the borders of layers: cells that one number gives, or that were made
-// longer or shorter for an estimate, nobody could lay between them by hand.
+// Grid lines go through the borders of layers. If one number gives the cells, or an estimate
+// changes their size, the user cannot place them between the borders.
 Geometry with_borders(const MeshConfig& config) {
   Geometry geometry = config.geometry;
   std::vector<double> borders;
@@ -78,8 +81,10 @@ Geometry with_borders(const MeshConfig& config) {
   const auto put = [&](auto* with_lines) {
     if (with_lines) with_lines->borders = borders;
   };
-  put(std::get_if<Block>(&geometry)), put(std::get_if<SectionBox>(&geometry));
-  put(std::get_if<IndentedBlock>(&geometry)), put(std::get_if<IndentedDisc>(&geometry));
+  put(std::get_if<Block>(&geometry));
+  put(std::get_if<SectionBox>(&geometry));
+  put(std::get_if<IndentedBlock>(&geometry));
+  put(std::get_if<IndentedDisc>(&geometry));
   return geometry;
 }
 
@@ -92,6 +97,8 @@ CutRegion region_of(const Selection& within) {
   return {through - half, through + half, true};
 }
 
+// Cuts the cells of each region into eight, as many times as asked for. Neighbours are cut as well
+// where two levels would meet (2:1 rule), so the number of cells is checked before each round.
 Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
   CutMesh cells(std::move(mesh));
   for (int time = 0;; ++time) {
@@ -111,8 +118,9 @@ Mesh with_cuts(Mesh mesh, const std::vector<CutConfig>& cuts) {
   }
 }
 
-// A section's lines go through the radii of its sets, too: a hole or a ring is then the same on all
-// cells. Not in y: a set may be of nodes inside.
+// Points through which grid lines go. In an axisymmetric section they include the radii of sets, so
+// that a hole or a ring has the same size on all meshes. Heights are not included: a set may
+// consist of inner nodes.
 Points with_radii(const MeshConfig& config) {
   Points points = config.positions();
   const auto* section = std::get_if<SectionBox>(&config.geometry);
@@ -158,6 +166,8 @@ void refuse_folded_in_file(const Quality& q) {
          "repair this cell in the program that made the file, for instance by smaller cells there");
 }
 
+// Order matters: cells, their order (second order nodes), cuts, points, bodies, frames, sets. Sets
+// of a mesh file have priority over the names of sides.
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;

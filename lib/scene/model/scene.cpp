@@ -27,7 +27,8 @@ namespace {
 
 using Find = std::function<Place(const std::string&)>;
 
-// What is asked of a scene's nodes, by sets and directions, and what is wrong with it.
+// Collects the prescribed displacements of a scene by node and direction, and the errors in them:
+// sets that the mesh does not have, and directions with two different values.
 class ConstraintBuilder {
  public:
   ConstraintBuilder(const Mesh& mesh, const Find& where)
@@ -120,6 +121,8 @@ void refuse_angles_without_effect(const std::vector<double>& angles,
        "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
 }
 
+// The material, fibre angles and fibre field of each body. Keys of a body replace those at the top
+// of the config; a key at the top that no body uses is an error.
 void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                    const std::optional<Material>& general, const Find& where,
                    std::vector<Error>& errors) {
@@ -203,16 +206,18 @@ void add_materials(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     scene.directions = make_directions(mesh, fibre_angles(scene.materials), fields);
 }
 
-// Candidates of an indenter without a set: what it can reach of the boundary, less what supports
-// hold against it.
+// The candidates of an indenter for which the config names no set: boundary nodes that it can reach
+// and that no support holds against it.
 std::vector<int> nodes_in_reach(const RigidContact& contact, const Mesh& mesh,
                                 const std::vector<Prescribed>& prescribed) {
   double moves = 0;
   std::vector<Vec3> held(mesh.X.size(), Vec3::Zero());
-  for (const Prescribed& p : prescribed)
-    held[p.dof / 3][p.dof % 3] = 1,
-                            moves = std::max(
-                                moves, std::abs(p.value) + (p.turn ? 2 * p.turn->radius() : 0));
+  for (const Prescribed& p : prescribed) {
+    held[p.dof / 3][p.dof % 3] = 1;
+    double way = std::abs(p.value);
+    if (p.turn) way += 2 * p.turn->radius();
+    moves = std::max(moves, way);
+  }
   std::vector<int> nodes = SurfaceCheck(mesh).reached(contact, moves);
   std::erase_if(nodes, [&](int n) {
     const Vec3 normal = shape_at(contact.shape, mesh.X[n]).normal;

@@ -13,6 +13,9 @@ std::string torque_name(const std::string& name) { return "torque_" + name; }
 
 }  // namespace
 
+// The torque about the axis of each rotating indenter and turned set,
+//   T = a . sum (x - p) x f,   a: unit vector of the axis, p: a point on it,
+// of contact reactions or reactions at the set, in the deformed configuration.
 void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
   const auto position = [&](int node) {
     return Vec3(mesh.X[node] + whole.u[static_cast<std::size_t>(node)]);
@@ -37,6 +40,8 @@ void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
   }
 }
 
+// Derivatives of the torques with respect to a parameter, by the product rule: of the forces and of
+// the lever arms. The axis and the nodes of a turned set are prescribed and have no derivative.
 std::map<std::string, double> torque_derivatives(const StepRecord& whole,
                                                  const StepRecord& derivative, const Mesh& mesh,
                                                  const Scene& scene) {
@@ -53,10 +58,10 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
     const std::string travel = "travel_" + contact.name;
     const bool pushed = contact.control.has_value();
     const Vec3 c = indenter_displacement(contact, whole.t, pushed ? whole.scalars.at(travel) : 0);
-    const Vec3 d_c =
-        pushed ? Vec3(derivative.scalars.at(travel) * contact.control->along) : Vec3(Vec3::Zero());
-    const std::vector<Vec3>&r = whole.contacts.at(contact.name).r,
-          &d_r = derivative.contacts.at(contact.name).r;
+    Vec3 d_c = Vec3::Zero();
+    if (pushed) d_c = derivative.scalars.at(travel) * contact.control->along;
+    const std::vector<Vec3>& r = whole.contacts.at(contact.name).r;
+    const std::vector<Vec3>& d_r = derivative.contacts.at(contact.name).r;
     double sum = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
       const int node = contact.nodes[i];
@@ -67,7 +72,7 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
   for (const TurnedSet& set : scene.turned) {
     const Vec3 p = set.axis_at(whole.t);
     double sum = 0;
-    for (int node : set.nodes)  // all of it is given: it does not move
+    for (int node : set.nodes)
       sum += set.axis.along.dot(
           cross(x(node) - p, derivative.reaction[static_cast<std::size_t>(node)]));
     out[torque_name(set.name)] = sum;
@@ -75,6 +80,7 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
   return out;
 }
 
+// Magnitudes of the torques by name, of which errors are estimated.
 std::map<std::string, double> torques_of(const StepRecord& whole, const Scene& scene) {
   std::map<std::string, double> torques;
   const auto take = [&](const std::string& name) {

@@ -11,6 +11,8 @@ ContactStates::ContactStates(const SolutionReader& solution,
     surfaces_.emplace(name, ContactSurface(solution.header().mesh, nodes));
 }
 
+// Slip is a sum over the path: replays the steps up to `row`. Earlier rows start from the
+// beginning.
 void ContactStates::go_to(int row) const {
   const Mesh& mesh = solution_.header().mesh;
   if (!path_ || row < row_) {
@@ -33,6 +35,7 @@ std::vector<double> ContactStates::slip(const std::string& contact, int row) con
   return {};
 }
 
+// The state of contact at each node of the mesh, over all indenters.
 std::vector<ContactNode> ContactStates::nodes(int row, const StepRecord& record,
                                               bool with_slip) const {
   std::vector<ContactNode> nodes(solution_.header().mesh.X.size());
@@ -50,6 +53,7 @@ std::vector<ContactNode> ContactStates::nodes(int row, const StepRecord& record,
 
 namespace {
 
+// Fields of one indenter as they were recorded at its candidates; other nodes have no value.
 void add_record(std::vector<Field>& points, std::size_t n, const std::string& name,
                 const std::vector<int>& nodes, const ContactRecord& contact) {
   Field status = field("contact_status_" + name, "-", 1, n, -1);  // -1: not a candidate
@@ -65,14 +69,17 @@ void add_record(std::vector<Field>& points, std::size_t n, const std::string& na
   if (contact.beta.empty()) return;
   Field beta = field("adhesion_" + name, "-", 1, n, -1);
   Field bonds = field("adhesive_force_" + name, "N", 3, n);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    beta.values[static_cast<std::size_t>(nodes[i])] = contact.beta[i],
-    put(bonds, static_cast<std::size_t>(nodes[i]), contact.adhesive[i]);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    beta.values[node] = contact.beta[i];
+    put(bonds, node, contact.adhesive[i]);
+  }
   for (Field* f : {&beta, &bonds}) points.push_back(std::move(*f));
 }
 
 }  // namespace
 
+// Fields that follow from the record: tractions are forces by the area of each node.
 void add_contact_fields(std::vector<Field>& points, const ContactStates& contacts,
                         const SolutionHeader& header, const StepRecord& record, int row) {
   const std::size_t n = header.mesh.X.size();

@@ -15,10 +15,14 @@ Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::optional<Reduced
 Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<HomogeneousScene> point)
     : mesh_(mesh), scene_(scene), point_(std::move(point)) {}
 
+// The smallest model with the same solution: one hexahedron, else a part bounded by planes of
+// symmetry (or a section), else the whole body. Parameters whose derivatives are asked for have to
+// keep the symmetry, so a scene with all of them changed is examined too.
 Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
                           const std::function<Place(const std::string&)>& where, bool at_a_point) {
   const SceneParameters parameters(config, mesh, scene, where);
-  if (at_a_point && !parameters.turns_fibres())  // turned ones shear a body that was stretched
+  // A change of fibre angles would shear a body that is only stretched: no single hexahedron then.
+  if (at_a_point && !parameters.turns_fibres())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
   if (config.sensitivity.empty())
@@ -51,6 +55,7 @@ const Scene& Reduction::scene() const {
   return scene_;
 }
 
+// Cells on a plane of symmetry belong to the part with a share only; loads are shared likewise.
 Assembler Reduction::assembler(std::optional<Division> division) const {
   std::vector<double> share;
   if (part_) share = part_->cell_share();
@@ -80,6 +85,7 @@ std::string Reduction::words() const {
   return "";
 }
 
+// The step on the user's mesh. Nothing if the body no longer deforms homogeneously.
 std::optional<StepRecord> Reduction::whole(const StepRecord& of_part) const {
   if (point_) return point_->whole(of_part);
   if (part_) return part_->whole(of_part);
@@ -107,6 +113,7 @@ void Reduction::replay(const StepRecord& of_whole) const {
   if (point_) point_->replay(of_whole);
 }
 
+// A recorded step of the whole body as a state of the model that is solved.
 BodyState Reduction::reduced(const StepRecord& of_whole) const {
   if (point_) return point_->reduced(of_whole);
   if (part_) return part_->reduced(of_whole);

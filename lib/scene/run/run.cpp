@@ -1,4 +1,5 @@
 #include "scene/run/run.hpp"
+#include "core/base/text.hpp"
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
@@ -48,6 +49,8 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
       path(path_),
       solver(std::move(solver_)) {}
 
+// Restores a recorded step and the one before it. Both are needed for the same continuation to the
+// last digit: the first trial state is extrapolated from them.
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
   BodyState earlier = statics.accepted();
   if (before) {
@@ -65,6 +68,7 @@ void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before
   statics.restore(resumed_->now, &resumed_->before);
 }
 
+// In a shared run only rank 0 reads the file; the other ranks receive its state.
 void Run::resume_all() {
   if (shared_by() && share(*shared_by(), resumed_, statics.accepted()) && !shared_by()->first()) {
     increment_ = resumed_->increment;
@@ -79,7 +83,7 @@ void Run::replay(const StepRecord& step) {
   reduction.replay(step);
 }
 
-// Of an accepted state; At::the_end: it goes on.
+// Records an accepted state for the listeners. At::the_end means that the path continues.
 RunEnd::At Run::record_step(const RunListener& listener, double t, double taken, double next,
                             const SolveReport& report, RunEnd& end) {
   const bool at_end = at_end_of_path(t);
@@ -96,6 +100,9 @@ RunEnd::At Run::record_step(const RunListener& listener, double t, double taken,
   return RunEnd::At::the_end;
 }
 
+// Follows the path with adaptive increments: `attempt` solves one increment, `accepted` records it.
+// An increment is rejected, and repeated with a smaller one, if it finds no equilibrium, takes
+// longer than allowed, or lets the surface pass an edge of an indenter.
 RunEnd Run::follow(const RunListener& listener) {
   RunEnd end;
   int signal = 0;
@@ -123,10 +130,12 @@ RunEnd Run::follow(const RunListener& listener) {
     const auto jumping = [&](int equilibria) {
       if (listener.jumping) listener.jumping(t, equilibria);
     };
-    SolveReport report =
-        statics.bonds().none()
-            ? solve()
-            : adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
+    SolveReport report;
+    if (statics.bonds().none()) {
+      report = solve();
+    } else {
+      report = adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
+    }
     if (!report.converged() && too_slow && signal == 0) {
       report.outcome = Outcome::not_converged;
       report.why = "the attempt takes longer than path.longest_attempt";

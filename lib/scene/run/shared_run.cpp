@@ -25,6 +25,7 @@ std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image) 
 
 namespace {
 
+// Why this reduced scene is solved by one rank, after all reasons that its config gives.
 std::string serial_reason(const Reduction& reduction, const SolveConfig& config) {
   if (std::string why = single_rank_reason(config, false); !why.empty()) return why;
   if (reduction.point()) return "one hexahedron stands for the body";
@@ -39,6 +40,7 @@ std::string serial_reason(const Reduction& reduction, const SolveConfig& config)
 
 }  // namespace
 
+// METIS divides the mesh by its connectivity: each rank gets cells with few neighbours elsewhere.
 std::optional<Division> divided(const Reduction& reduction, const SolveConfig& config,
                                 std::string& why) {
   if (!ranks()) return std::nullopt;
@@ -53,6 +55,7 @@ std::optional<Division> divided(const Reduction& reduction, const SolveConfig& c
   return Division{ranks(), ranks()->divide(nodes, mesh.cell().n_nodes, mesh.n_nodes())};
 }
 
+// All ranks have to end after the same increment: the largest signal of any rank is that of all.
 int signal_of(const Ranks* ranks) {
   if (!ranks) return interrupted();
   const int signal = static_cast<int>(ranks->largest(interrupted()));
@@ -60,6 +63,7 @@ int signal_of(const Ranks* ranks) {
   return signal;
 }
 
+// Sends the state from which rank 0 continues to all ranks: sizes are those of `shape`.
 bool share(const Ranks& ranks, std::optional<Resumed>& resumed, const BodyState& shape) {
   int some = resumed.has_value();
   ranks.broadcast_from_root(&some, sizeof some);

@@ -18,6 +18,7 @@ Material material_from(const std::string& path) {
   return read_material(path).material;
 }
 
+// A material without stiffness at rest is refused: the first tangent would be singular.
 Material material_of_body(const std::string& path) {
   const Material material = material_from(path);
   if (at_rest(material) == AtRest::without_stiffness)
@@ -29,6 +30,7 @@ Material material_of_body(const std::string& path) {
   return material;
 }
 
+// The part of a solution file that is the same for all steps.
 SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene& scene,
                          const Identity& identity) {
   SolutionHeader header;
@@ -48,25 +50,22 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
 
 namespace {
 
-// means over each cell's Gauss points: J, pressure (mean stress), von Mises of the mean stress,
-// I4_bar of the first family
+// Adds means over the Gauss points of each cell: J, mean stress, von Mises stress of the mean
+// Cauchy stress, and I4_bar of the first fibre family.
 void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
   const int n = body.mesh().n_cells();
   bool fibres = false;
   for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
   for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
   if (fibres) record.cell_fields["I4_bar"].resize(n);
-  auto &J = record.cell_fields["J"], &pressure = record.cell_fields["pressure"],
-       &mises = record.cell_fields["von_mises"];
+  std::vector<double>& J = record.cell_fields["J"];
+  std::vector<double>& pressure = record.cell_fields["pressure"];
+  std::vector<double>& mises = record.cell_fields["von_mises"];
   for (int e = 0; e < n; ++e) {
     const auto a = body.fibres(e);
     Mat3 sigma = Mat3::Zero();
-    std::vector<Vec6> branches;
-    if (body.viscous()) {
-      branches = body.viscous_points()->stresses(e);
-    } else {
-      branches = std::vector<Vec6>{};
-    }
+    std::vector<Vec6> branches;  // stresses of the viscous branches at the Gauss points
+    if (body.viscous()) branches = body.viscous_points()->stresses(e);
     const auto states = gauss_states(body.formulation(), body.material(e), body.geometry(e), a,
                                      body.element_displacements(u, e), branches);
     const double w = 1.0 / static_cast<double>(states.size());
@@ -88,6 +87,7 @@ void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
 
 }  // namespace
 
+// A hanging node is the mean of the four nodes of the face on which it is.
 void hang(const Assembler& body, const VecX& u, std::vector<Vec3>& nodal) {
   for (const HangingNode& h : body.mesh().hanging) {
     nodal[h.node].setZero();
@@ -100,6 +100,7 @@ Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
                                indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
 }
 
+// What is written of an accepted state: displacements, reactions, contact and energies.
 StepRecord step_record(const Statics& statics, const Assembler& body, double taken, double next,
                        const SolveReport& report) {
   const BodyState& state = statics.accepted();
@@ -119,8 +120,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   }
   hang(body, state.u, record.u);
   add_cell_fields(record, body, state.u);
-  record.scalars["next_increment"] =
-      next;  // where a killed run goes on as if it had not been killed
+  record.scalars["next_increment"] = next;  // a run that is continued takes the same increments
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
   if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
@@ -149,6 +149,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   return record;
 }
 
+// The inverse of step_record: the state from which a run continues.
 BodyState state_of(const StepRecord& record, const Scene& scene) {
   BodyState state;
   state.t = record.t;
