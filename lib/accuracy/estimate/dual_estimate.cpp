@@ -225,7 +225,10 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     const double size = d.size / std::abs(times);
     ErrorEstimate e{q, asked[k].sign * d.sum() / times, 0, 0, last.residual * std::abs(q.value)};
     if (q.of_force()) e.order = order_of_force(config);
-    e.scatter = (e.order < 2 ? of_clamped : quadratic ? of_quadratic : of_others) * size;
+    double scatter = of_others;
+    if (quadratic) scatter = of_quadratic;
+    if (e.order < 2) scatter = of_clamped;
+    e.scatter = scatter * size;
     const double smooth = e.total();
     if (!asked[k].of_set && q.of_force())  // smooth fields do not know that nodes touch one by one
       e.scatter = std::max(

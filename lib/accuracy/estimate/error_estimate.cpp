@@ -146,7 +146,10 @@ std::optional<ObservedLaw> observed_law(const std::vector<double>& length,
 // how much it may be missed, relative to it, is a share of the cells' length in contact radii.
 double between_points(double touching, bool section) {
   if (touching < 1) return 0;
-  return std::min(0.5, 0.6 * (section ? 1 / touching : std::sqrt(std::numbers::pi / touching)));
+  // Mesh size in contact radii: the touching nodes fill a disc, or a radius of a section.
+  double size = std::sqrt(std::numbers::pi / touching);
+  if (section) size = 1 / touching;
+  return std::min(0.5, 0.6 * size);
 }
 
 // Under a punch it lies at the rounded edge, in as many cells fewer as that is shorter than the
@@ -220,7 +223,8 @@ double shear_at_edge(const SolveConfig& config, double touching) {
 // work-precision; sections: docs/work_precision.md).
 double one_by_one(double touching, bool section) {
   if (touching < 1) return 0;
-  return std::min(0.5, section ? 0.25 / (touching * touching) : 3.1 * std::pow(touching, -1.5));
+  if (section) return std::min(0.5, 0.25 / (touching * touching));
+  return std::min(0.5, 3.1 * std::pow(touching, -1.5));
 }
 
 // A rigid face presses an edge into the body, its own or the body's: there stresses are singular,
@@ -433,7 +437,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const Solutions all = solve_all(refined, itself, [&](const SolveConfig& scene) {
     ++begun;
     return solved_path(scene, material, where, [&](const Run& run) {
-      return listener ? listener(run, begun, refined.n_scenes()) : RunListener{};
+      if (listener) return listener(run, begun, refined.n_scenes());
+      return RunListener{};
     });
   });
   PathErrors out;

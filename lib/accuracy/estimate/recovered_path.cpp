@@ -114,7 +114,8 @@ Observer RecoveredPath::beside(Observer observer) {
               if (also) also(whole, report);
               look_at(whole);
             };
-            return along ? along(std::move(listener)) : listener;
+            if (along) return along(std::move(listener));
+            return listener;
           }};
 }
 

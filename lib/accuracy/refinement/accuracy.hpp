@@ -1,10 +1,20 @@
-// What a wanted accuracy takes: a level of the refinement study that
-// pipelines/refinement_study.yaml measures on three indentations of a block (isotropic without
-// friction; Table 1 at 60 degrees and c1 = +0.317 at 30 degrees with friction). Isotropic bodies
-// without friction get hex27 for less than 1 %, whose error falls fastest there; all else hex8:
-// with friction the shear at the edge of the contact decides, and hex8 have more nodes there for
-// the same time; with fibres and no friction hex27 were up to 1.3 % off where hex8 were 0.4 (make
-// accuracy). A level's error is that of the force in the scenes of its kind.
+// The accuracy that a config asks for, and the loop that reaches it.
+//
+//   Level     element type, mesh size and largest increment
+//   Estimate  error of the forces of its solution (accuracy/estimate)
+//   Decision  accept, refine (to the next level) or stop with a reason
+//
+//           +--- refine ---+
+//           v              |
+//   Level -> solve -> Estimate -> Decision -> accept, or stop (exit code 5)
+//
+// The first level comes from a refinement study of three indentations (pipelines/
+// refinement_study.yaml): isotropic without friction, and Table 1 of the paper at 60 degrees and
+// c1 = +0.317 at 30 degrees with friction. Scenes of other kinds begin with coarse elements, whose
+// estimate decides. Isotropic bodies without friction get hex27 below 1 %: their error falls
+// fastest. All others get hex8. With friction the shear at the edge of the contact decides, and
+// hex8 have more nodes there for the same time; with fibres, hex27 were up to 1.3 % off where hex8
+// were 0.4 % (make accuracy). The constants are in accuracy/refinement/constants.hpp.
 #pragma once
 
 #include <map>

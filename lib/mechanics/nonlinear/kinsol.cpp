@@ -204,13 +204,13 @@ SolveReport kinsol(const Problem& problem, const FreeBalance& balance, VecX& x,
       return stop(Outcome::inadmissible, text_or(now.missing, "a force is not finite"));
     const bool balanced = now.residual <= report.tolerance;
     if (round > 0 && balanced && now.others) return stop(Outcome::converged, "");
-    if (round == options.rounds)
-      return stop(
-          Outcome::not_converged,
-          balanced ? fmt::format("{} after {} rounds of KINSOL", now.missing, round)
-                   : fmt::format(
-                         "residual {:.2e} N > {:.2e} N after {} rounds of KINSOL ({} iterations)",
-                         now.residual, report.tolerance, round, report.iterations));
+    if (round == options.rounds) {
+      std::string why =
+          fmt::format("residual {:.2e} N > {:.2e} N after {} rounds of KINSOL ({} iterations)",
+                      now.residual, report.tolerance, round, report.iterations);
+      if (balanced) why = fmt::format("{} after {} rounds of KINSOL", now.missing, round);
+      return stop(Outcome::not_converged, std::move(why));
+    }
     if (!take_step(problem, problem.correction(), x, options.largest_move, report)) return report;
     ++report.iterations;
     const Assessment then = problem.assess(x, false);
