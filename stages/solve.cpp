@@ -46,7 +46,7 @@ Case read_case(const Job<SolveConfig>& job) {
   for (const std::string& line : review_lines(job.config, input.material, job.where)) {
     job.voice().warn(line);
   }
-  input.parameters = take_uncertain(input.job.config, material_file, job.where);
+  input.parameters = prepare_uncertainty(input.job.config, material_file, job.where);
   if (job.has("material")) input.study = study_from(material_file);
   return input;
 }
@@ -81,7 +81,7 @@ void run_worker_rank(Run& run, bool dry_run, const SolveConfig& config) {
     forecast_of(config, run.body, run.statics, run.scene.stops);
     return;
   }
-  by_first(run.shared_by(), [] { return true; });  // the preparation of rank 0
+  on_root_rank(run.shared_by(), [] { return true; });  // the preparation of rank 0
   run.resume_all();
   run.follow();
 }
@@ -101,7 +101,7 @@ struct Observers {
   // Checks the memory and opens the output. Only rank 0 does so; if it fails, all ranks end.
   void prepare(const Case& input, const SolveConfig& config, Run& run, RunWatch& watch) {
     const Job<SolveConfig>& job = input.job;
-    by_first(run.shared_by(), [&] {
+    on_root_rank(run.shared_by(), [&] {
       check_memory(run.statics, watch.of_mesh(), config.threads);
       loose = held_by_contact(run, job.where);
       sensitivity.emplace(run, config, job.where);
@@ -163,7 +163,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   during_estimate.reset();
 
   const auto forces = observers.uncertainty->of(end.last);
-  say_forces(job.voice(), input.parameters, forces, errors.at_end);
+  report_forces(job.voice(), input.parameters, forces, errors.at_end);
   const Summaries results =
       joined({observers.sensitivity->summary(end.last), summary_of(forces),
               summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary()});
@@ -200,7 +200,7 @@ Summaries solve(const Job<SolveConfig>& job) {
     }
     // A body that has ceased to deform homogeneously continues on its mesh from the same steps.
     const bool continues = was_homogeneous && !model.at_a_point();
-    if (!continues) forget_steps(job.output);
+    if (!continues) discard_steps(job.output);
   }
 }
 

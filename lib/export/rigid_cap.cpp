@@ -17,7 +17,7 @@ double without_rounding(double x) {
 
 }  // namespace
 
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side) {
   const Vec3 centre = sphere.centre;
   const double R = sphere.radius;

@@ -22,7 +22,7 @@ struct RigidCap {
 
 // `towards` is the unit vector from the centre to the body. `places` are the positions of nodes
 // that may touch the sphere, relative to its start [mm].
-RigidCap rigid_cap(const Sphere& sphere, const Vec3& towards, const std::vector<Vec3>& places,
+RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Vec3>& places,
                    double side);
 
 }  // namespace langer

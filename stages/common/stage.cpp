@@ -152,7 +152,7 @@ bool start_ranks(const std::string& program, bool quiet) {
   std::string reason = program + " is the work of one process";
   if (program == shared_by_ranks && begin_ranks(reason)) return true;
   if (started.rank > 0) return false;
-  if (!quiet) say_line("{}: {} of {} ranks idle: {}", program, started.n - 1, started.n, why);
+  if (!quiet) say_line("{}: {} of {} ranks idle: {}", program, started.n - 1, started.n, reason);
   return true;
 }
 

@@ -232,14 +232,10 @@ double one_by_one(double touching, bool section) {
 // indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty() && is_clamped(config)) return 1;
-  for (const auto& [name, contact] : config.contacts) {
-    if (std::holds_alternative<Plane>(contact.rigid) ||
-        std::holds_alternative<Cylinder>(contact.rigid) ||
-        std::holds_alternative<Aperture>(contact.rigid)) {
-      return 1;
-    }
-  }
-  return 2;
+  int order = 2;
+  for (const auto& [name, contact] : config.contacts)
+    order = std::min(order, force_order(contact.rigid));
+  return order;
 }
 
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }

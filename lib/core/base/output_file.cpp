@@ -2,6 +2,7 @@
 #include "core/base/text.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,6 +55,36 @@ void require_plain_file(const std::string& path) {
   if (S_ISDIR(status.st_mode)) refuse(path, "is a folder", "remove or rename it");
   if (!S_ISREG(status.st_mode)) {
     refuse(path, "is no plain file (a device, FIFO or socket)", "remove or rename it");
+  }
+}
+
+// The lock of a private folder tells other runs that its owner lives. The system releases it when
+// the owner ends, however it ends.
+int lock_folder(const fs::path& folder, int how) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (fd < 0) return -1;
+  if (::flock(fd, how) == 0) return fd;
+  ::close(fd);
+  return -1;
+}
+
+// Removes private folders that killed runs have left.
+void remove_abandoned_folders(const std::string& parent) {
+  const std::string_view begin = ".langer-";
+  std::error_code failed;
+  std::vector<fs::path> abandoned;
+  for (const auto& entry : fs::directory_iterator(text_or(parent, "."), failed)) {
+    const std::string name = entry.path().filename();
+    const bool ours = name.starts_with(begin) && name.size() == begin.size() + 16 &&
+                      name.find_first_not_of("0123456789abcdef", begin.size()) == name.npos;
+    if (ours && entry.is_directory(failed) && !entry.is_symlink(failed))
+      abandoned.push_back(entry.path());
+  }
+  for (const fs::path& folder : abandoned) {
+    const int fd = lock_folder(folder, LOCK_EX | LOCK_NB);
+    if (fd < 0) continue;  // its owner lives
+    fs::remove_all(folder, failed);
+    ::close(fd);
   }
 }
 
@@ -138,10 +169,20 @@ bool append_durably(const std::string& path, std::string_view bytes) {
   return written;
 }
 
+// The lock is kept until the process ends. Another run may remove the folder between its making
+// and its lock; then the next name is tried.
 std::string make_private_folder(const std::string& parent) {
-  const std::string name = unpredictable_name();
-  const bool made = ::mkdir((fs::path(parent) / name).c_str(), 0700) == 0;
-  return made ? name : "";
+  remove_abandoned_folders(parent);
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const std::string name = unpredictable_name();
+    const fs::path folder = fs::path(parent) / name;
+    if (::mkdir(folder.c_str(), 0700) != 0) return "";
+    const int fd = lock_folder(folder, LOCK_EX);
+    if (fd < 0 || fs::exists(folder)) return name;
+    ::close(fd);
+  }
+  errno = EEXIST;
+  return "";
 }
 
 void make_folder_below(const std::string& root, const std::string& folder) {

@@ -95,7 +95,7 @@ void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
   const IncrementMove move = increment_move(expected);
   for (int node : contacts_[k].nodes)
     u_start_[k].segment<3>(3 * node) =
-        slips_from(contacts_[k], move.of(contacts_[k], node), gap_tolerance_);
+        slip_origin(contacts_[k], move.of(contacts_[k], node), gap_tolerance_);
 }
 
 IncrementMove Statics::increment_move(const VecX& expected) const {
@@ -109,7 +109,7 @@ bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled
 
 std::vector<Vec3> Statics::start_moves() const {
   if (!starts_with_travel()) return {};
-  return change_of_slips_with_travel(*controlled(), increment_move(expected_), gap_tolerance_);
+  return slip_origin_change_with_travel(*controlled(), increment_move(expected_), gap_tolerance_);
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }

@@ -175,8 +175,12 @@ class Drawer {
 
   // The name of a line: of its y, of its member, or of both if there are several of each.
   std::string legend(std::size_t i, const std::string& member) const {
-    std::string name = figure_.legends[i];
-    if (figure_.legends.empty()) name = label_of(figure_.y[i]);
+    std::string name;
+    if (figure_.legends.empty()) {
+      name = label_of(figure_.y[i]);
+    } else {
+      name = figure_.legends[i];
+    }
     if (member.empty()) return name;
     if (has_single_y() && figure_.legends.empty()) return member;
     return name + ", " + member;
