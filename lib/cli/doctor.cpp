@@ -16,6 +16,7 @@
 #include "core/base/module_path.hpp"
 #include "core/base/split.hpp"
 #include "core/base/version.hpp"
+#include "mechanics/linear/blas/kernels.hpp"
 #include "pipeline/plan/ports.hpp"
 #include "report/page.hpp"
 
@@ -159,6 +160,8 @@ std::vector<Finding> examine() {
              "libgmsh4.8"),
       module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time",
              "libpetsc-real3.18")};
+  if (const std::string kernels = blas::kernels_line(); !kernels.empty())
+    findings.push_back({"BLAS", true, false, kernels});
   if (report::has_three())
     findings.push_back({"three.js", true, false, "in langer-report"});
   else

@@ -17,6 +17,7 @@
 #include "core/base/ranks.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
+#include "mechanics/linear/blas/kernels.hpp"
 #include "mechanics/linear/petsc/petsc_load.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/ports.hpp"
@@ -40,6 +41,8 @@ void on_root_rank(Work work) {
 void print_inputs(const Identity& identity, const std::string& program) {
   say_line("{}: {}, config {}", identity.stage, version_line(program), identity.config_hash);
   for (const auto& [port, id] : identity.inputs) say_line("{}: {} {}", identity.stage, port, id);
+  if (const std::string kernels = blas::kernels_line(); !kernels.empty())
+    say_line("{}: {}", identity.stage, kernels);
 }
 
 // Refuses an input that another stage made than those that the port takes.
@@ -206,6 +209,8 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
   const StageSpec& spec = *find_stage(name);
   const ConfigKind& kind = *find_config_kind(name);
   const std::string program = "langer-" + name;
+  // Only these two stages factorize large matrices.
+  if (name == "solve" || name == "fit") blas::restart_with_better_kernels(argv);
   Arguments options(program);
   CommandLine given;
   add_options(options, spec, task, given);

@@ -278,9 +278,9 @@ TEST_CASE(
           law + held)
           .find("cells; expected at most 4000000") != std::string::npos);
   CHECK(refused(start + law + held + "sensitivity: [matrix.neo_hooke.a1]\n")
-            .find("derivatives, beside cells that are cut") != std::string::npos);
+            .find("derivatives, next to cells that are cut") != std::string::npos);
   const std::string pressure = "loads: [{on: top, pressure: 0.01}]\n",
                     alone = law.substr(0, law.find("loads"));
   CHECK(refused(start + alone + held + pressure)
-            .find("force on a surface, beside cells that are cut") != std::string::npos);
+            .find("force on a surface, next to cells that are cut") != std::string::npos);
 }

@@ -177,7 +177,7 @@ TEST_CASE("Angles and fields that nothing takes are refused at their key") {
   holds(test::said_of_scene(both + "fibre_angles: [20]\n" + pulled, mesh),
         "fibre_angles: no body takes it");
   holds(test::said_of_scene(top + field + "fibre_angles: [20]\n" + pulled, mesh),
-        "fibre_angles: found beside fibre_field");
+        "fibre_angles: found together with fibre_field");
   holds(test::said_of_scene(top + "fibre_field: null\nfibre_angles: [20]\n" + pulled, mesh),
         "accepted");
 }

@@ -74,4 +74,4 @@ contacts:
 endfunction()
 pressed_at(0 " step cut-backs; " 0.5)
 pressed_at(4 "the body slips away from under the indenter, and nothing else holds it" 0.9)
-expect_said("hold also a node on the indenter's axis and, against turning, one beside it, where contact does not")
+expect_said("hold also a node on the indenter's axis and, against turning, one next to it, where contact does not")

@@ -1,4 +1,4 @@
-# Hostile folders: files that somebody sent, made to run a command, to hang a program, or to have it write where it should not.
+# Hostile folders: files that you received, made to run a command, to hang a program, or to have it write where it should not.
 # Every program runs under strace. It may start no other program, may open no file for writing outside the folder of its output, and ends
 # with 2 or 3 within 10 s.
 include(${ROOT}/tests/support/run.cmake)

@@ -225,8 +225,8 @@ std::vector<std::string> ContactWatch::warnings() const {
       lines.push_back(
           name +
           fmt::format(
-              "between nodes the body is {:.3g} mm inside the indenter near {}, {:.0f} % of what it is pressed "
-              "in: {}; shorten them there",
+              "between nodes the body is {:.3g} mm inside the indenter near {}, {:.0f} % of its travel: "
+              "{}; shorten them there",
               f.at_force.facet.depth, text(f.at_force.facet.X), 100 * f.share(), meaning));
     const bool hangs =
         scene_.contacts[k].adhesion && f.at_force.touching == 0;  // by its bonds alone

@@ -34,7 +34,7 @@ bool compressible_cells_fold(const Assembler& body) {
 std::string cure_of_failure(const Run& run, const PathReport& path, const std::string& loose) {
   if (!loose.empty())
     return "a run of this config continues from there); hold also a node on the indenter's axis "
-           "and, against turning, one beside it, where contact does not: that begins anew";
+           "and, against turning, one next to it, where contact does not: that begins anew";
   // Where the tangent has a negative direction under forces, no shorter increment passes.
   if (run.statics.n_unstable() > 0 && !run.body.loads().empty()) {
     const double reached = std::floor(1e3 * path.t) / 1e3;

@@ -109,7 +109,7 @@ std::optional<Error> ResultWatch::refusal() const {
       {},
       "",
       fmt::format(
-          "at t = {:.6g} the residual is {:.2g} N beside reactions of {:.3g} N: with {} the rounding of the "
+          "at t = {:.6g} the residual is {:.2g} N, with reactions of {:.3g} N: with {} the rounding of the "
           "displacements leaves forces of this size",
           t_, residual_, reactions_, stiffness()),
       fmt::format("a residual of at most {:g} % of the reactions", 100 * largest_residual),

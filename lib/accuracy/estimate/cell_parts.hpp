@@ -17,7 +17,7 @@ std::vector<double> parts_of(const std::vector<double>& of_cell, double smooth,
 // Share of the cells that have a corner inside of the body, of a section inside of its plane.
 double with_a_corner_inside(const Mesh& mesh);
 inline constexpr const char* across_one_cell =
-    "a layer of one cell tells nothing of smooth fields across it";
+    "a layer of one cell says nothing about smooth fields across it";
 
 // nothing but equal parts, since nothing is known
 PathErrors to_be_cut_everywhere(const Mesh& mesh, const std::string& why);

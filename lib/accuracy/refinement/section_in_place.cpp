@@ -180,7 +180,7 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
     return voice_.say("reduce: {}; the block is solved", failure.what());
   }
   const std::string sides = fmt::format(
-      "discs of {:.4g} and {:.4g} mm inside and around the block tell that its sides change the force by up to {:.2g} %",
+      "discs of {:.4g} and {:.4g} mm inside and around the block show that its sides change the force by up to {:.2g} %",
       radii_.inside, radii_.around, sides_percent_);
   if (!(sides_percent_ < wanted()))
     return voice_.say("reduce: {}, and {:g} % is allowed: the block is solved", sides, wanted());

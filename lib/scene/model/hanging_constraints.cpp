@@ -56,7 +56,7 @@ std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh,
   std::vector<Error> errors;
   if (mesh.hanging.empty()) return errors;
   for (const Complaint& c : not_on_cut_cells(config))
-    errors.push_back({where(c.key), c.key, c.found + ", beside cells that are cut", c.expected,
+    errors.push_back({where(c.key), c.key, c.found + ", next to cells that are cut", c.expected,
                       "a mesh without `cuts`"});
   ByDof by_dof;
   for (const Prescribed& p : prescribed) by_dof[p.dof] = &p;
@@ -68,7 +68,7 @@ std::vector<Error> hanging_errors(const SolveConfig& config, const Mesh& mesh,
       errors.push_back(
           {where("supports"), "supports",
            fmt::format(
-               "({:g}, {:g}, {:g}) is held or moved along {}, and lies in the middle of an edge or a facet of a "
+               "({:g}, {:g}, {:g}) is held or moved along {}, and is the middle of an edge or a facet of a "
                "larger cell that is not, as a whole",
                X[0], X[1], X[2], "xyz"[k]),
            "sets that end between facets",

@@ -92,7 +92,7 @@ struct LoadConfig {
       required);
     v(&LoadConfig::displacement, "displacement", unit::none, "imposed displacement");
     v(&LoadConfig::rotation, "rotation", unit::none,
-      "the set is turned as a rigid body, as what is glued to it; displacement beside it moves that as a whole");
+      "the set is turned as a rigid body, as what is glued to it; displacement with it moves that as a whole");
     v(&LoadConfig::force, "force", unit::none,
       "dead force on the whole set, spread evenly over its area at rest");
     v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");

@@ -92,7 +92,7 @@ struct MeshConfig {
       "a hex8, and far fewer are needed; tet15, where geometry is a file: tetrahedra with quadratic displacements and bubbles; of an "
       ".inp what it has: hex27 of 20 or 27 nodes, tet15 of 4 or 10");
     v(&MeshConfig::cuts, "cuts", unit::none,
-      "regions whose hex8 are cut into eight; the nodes in the middles of larger cells beside them move with the corners of these");
+      "regions whose hex8 are cut into eight; the nodes in the middles of larger cells next to them move with the corners of these");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
     v(&MeshConfig::points, "points", unit::mm,
@@ -100,7 +100,7 @@ struct MeshConfig {
     v(&MeshConfig::sets, "sets", unit::none,
       "further sets by name: nodes, and the facets of the surface between them");
     v(&MeshConfig::exports, "export", unit::none,
-      "the mesh for other programs beside the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
+      "the mesh for other programs next to the output, hex8 only: msh for Gmsh, inp for Abaqus and CalculiX; bodies and sets are kept");
   }
   Points positions() const {
     Points positions;
@@ -129,7 +129,7 @@ struct MeshConfig {
         found.push_back({"cells", std::string("found ") + name,
                          "hex8 or tet15, where geometry is no .inp", ""});
       if (!cell.hexahedron() && frames != Frames::global)
-        found.push_back({"frames", std::string("found element_edges beside cells: ") + name,
+        found.push_back({"frames", std::string("found element_edges together with cells: ") + name,
                          "global: no edge of a tetrahedron stands for a direction", ""});
     } else {
       if (!cell.hexahedron())
@@ -143,15 +143,15 @@ struct MeshConfig {
                          "change a thickness, or the second number of its size"});
     }
     if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
-      found.push_back({"cuts", "found beside other cells than the hex8 of a body", "none", ""});
+      found.push_back({"cuts", "found together with other cells than the hex8 of a body", "none", ""});
     if (!cuts.empty() && !exports.empty())
       found.push_back(
-          {"export", "found beside cuts", "none: other programs know no nodes that hang", ""});
+          {"export", "found together with cuts", "none: other programs know no nodes that hang", ""});
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section",
                        "none: other programs have sections of their own", ""});
     else if (!exports.empty() && !cell.names.abaqus.written)
-      found.push_back({"export", std::string("found beside cells: ") + name, "cells: hex8", ""});
+      found.push_back({"export", std::string("found together with cells: ") + name, "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) {
       return std::find(sides.begin(), sides.end(), name) != sides.end();

@@ -116,7 +116,7 @@ void refuse_angles_without_effect(const std::vector<double>& angles,
   for (const Error& e : errors)
     if (e.key == key) return;
   errors.push_back(
-      {where(key), key, "found beside fibre_field, which gives the direction of the only family",
+      {where(key), key, "found together with fibre_field, which gives the direction of the only family",
        "one of the two",
        "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
 }
@@ -324,14 +324,14 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
 void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key,
                    const Find& where, std::vector<Error>& errors) {
   if (contact.on.empty())
-    errors.push_back({where(key), key + ".on", "missing, beside control",
+    errors.push_back({where(key), key + ".on", "missing, with control given",
                       "a node set that may touch the indenter",
                       "how far a force pushes the indenter is not known before"});
   for (const RigidContact& other : scene.contacts)
     if (other.control)
       errors.push_back({where(key + ".control"), key + ".control",
-                        fmt::format("found beside that of \"{}\"", other.name),
-                        "one indenter under force control", "others may move as told by `motion`"});
+                        fmt::format("found together with that of \"{}\"", other.name),
+                        "one indenter under force control", "others may follow `motion`"});
 }
 
 // A force that pushes out of the body against its far side from within would have to bring the

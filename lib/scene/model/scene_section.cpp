@@ -59,7 +59,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
   const std::string of = is_round ? "an axisymmetric section" : "a plane-strain section";
   std::string along_axis = "a direction in the plane of x and y";
   std::string movement = "a movement in the plane of x and y";
-  std::string shape = "a shape that stands in z = 0, or a plane normal to that";
+  std::string shape = "a shape with its centre in z = 0, or a plane normal to that";
   if (is_round) {
     along_axis = "a direction along y";
     movement = "a movement along y";

@@ -93,7 +93,7 @@ struct ContactConfig {
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
           "tan 34 = 0.67; at 10 everything sticks; leave the key out for frictionless contact"});
     v(&ContactConfig::motion, "motion", unit::none,
-      "where the indenter goes, straight from point to point; beside control only across its direction");
+      "where the indenter goes, straight from point to point; with control only across its direction");
     v(&ContactConfig::control, "control", unit::none,
       "the indenter is pushed with a given force, and its travel is found");
     v(&ContactConfig::rotation, "rotation", unit::deg,
@@ -105,11 +105,11 @@ struct ContactConfig {
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found = of_rotation();
     if (control && adhesion)
-      found.push_back({"control", "found beside adhesion", "one of the two",
+      found.push_back({"control", "found together with adhesion", "one of the two",
                        "a pull of given force jumps off without an end: move the indenter"});
     if (rotation && adhesion)
-      found.push_back({"rotation", "found beside adhesion", "one of the two",
-                       "bonds are told where an indenter is, not how it is turned"});
+      found.push_back({"rotation", "found together with adhesion", "one of the two",
+                       "bonds follow the place of an indenter, not its rotation"});
     if (control && motion.empty()) return found;
     for (Complaint& complaint :
          place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
@@ -197,7 +197,7 @@ struct AccuracyConfig {
     v(&AccuracyConfig::of, "of", unit::none,
       "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point>; or the kind alone, "
       "such as reaction, for all of that kind. None: the force of indenters that move as given, the travel of one under force "
-      "control, else the reactions of what is moved, else the displacements of points");
+      "control, else the reactions of moved sets, else the displacements of points");
     v(&AccuracyConfig::at, "at", unit::none,
       "where on the path: at its end, where the quantity is largest, or at every step. None: at the end, or at the largest value where "
       "the path ends below half of it");
@@ -281,22 +281,22 @@ struct SolveConfig {
       "increments and the symmetry, from what was measured (pipelines/refinement_study.yaml) or from a coarse solution, and refines until the "
       "estimate is within it; exit code 5 where it is not");
     v(&SolveConfig::fidelity, "fidelity", unit::none,
-      "in place of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
+      "instead of accuracy, by name: draft 5%, standard 1%, reference 0.2%");
     v(&SolveConfig::estimate, "estimate", unit::none,
       "errors of forces, reactions, greatest von Mises stress and displacements at points: refinement solves the scene again on cells "
       "longer by 1.25 and by 1.5 (where they are too coarse for that, on finer ones), and with friction once more in other increments; wants "
       "a mesh whose cells follow from numbers of the config (block, section, indented_block, indented_disc), and is taken where accuracy or "
       "fidelity is asked for; auto does so where it takes less than a third of the solve by the forecast, else as recovery. dual, on any mesh of an elastic "
-      "body, without friction: forces, reactions and displacements by the dual solution of each, for about the price of one iteration; beside "
+      "body, without friction: forces, reactions and displacements by the dual solution of each, at about the cost of one iteration; together with "
       "accuracy hex8 are cut where the error comes from. recovery, on any mesh and at once: what the stress lacks to be smooth; of force and "
-      "stress, in an indentation some times too large; the default for elastic bodies of one material whose indenters move as told. none");
+      "stress, in an indentation some times too large; the default for elastic bodies of one material whose indenters follow `motion`. none");
     v(&SolveConfig::truncation, "truncation", unit::none,
-      "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement tells what "
+      "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement reports what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
     v(&SolveConfig::material, "material", unit::none,
       "the material; may come from --material instead");
     v(&SolveConfig::fibre_angles, "fibre_angles", unit::deg,
-      "angle of each fibre family, in place of the material's own", between(-360, 360));
+      "angle of each fibre family, instead of the material's own", between(-360, 360));
     v(&SolveConfig::fibre_field, "fibre_field", unit::none,
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,
@@ -320,11 +320,11 @@ struct SolveConfig {
       "the whole body");
     v(&SolveConfig::reduce, "reduce", unit::none,
       "auto: an indented_block with free sides whose scene is the same around its axis is solved as an axisymmetric section, a disc "
-      "of its area, where the discs inside and around the block tell that its sides change the force by less than accuracy or "
+      "of its area, where the discs inside and around the block show that its sides change the force by less than accuracy or "
       "fidelity allow (1% without them); results are those of the section");
     v(&SolveConfig::homogeneous, "homogeneous", unit::none,
       "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
-      "solved in place of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
+      "solved instead of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
     v(&SolveConfig::sensitivity, "sensitivity", unit::none,
       "numbers of the scene, such as matrix.yeoh.a1, fibres[0].alpha, materials.dermis.matrix.yeoh.a1 or contacts.sphere.friction: at "
       "every increment the derivatives of displacements, reactions and forces with respect to each");
@@ -354,7 +354,7 @@ struct SolveConfig {
     if (mesh && !mesh->exports.empty())
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
     if (accuracy && fidelity)
-      found.push_back({"fidelity", "found beside accuracy", "one of the two", ""});
+      found.push_back({"fidelity", "found together with accuracy", "one of the two", ""});
     const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
     std::string other_mesh = "no mesh here";
     if (mesh) other_mesh = "a mesh whose cells follow from no numbers of this config";
@@ -371,15 +371,15 @@ struct SolveConfig {
     else if (!truncation.empty() && !accuracy && !fidelity && estimate != EstimateBy::refinement &&
              estimate != EstimateBy::automatic)
       found.push_back({"truncation", "no estimate by refinement", "estimate: refinement or auto",
-                       "it tells what is left out"});
+                       "it reports what is left out"});
     for (std::size_t i = 0; i < truncation.size(); ++i) {
       const std::string key = "truncation[" + std::to_string(i) + "]";
       if (truncation[i] == Truncation::bottom && mesh && !mesh->bodies.empty())
         found.push_back({key, "bottom, of a mesh with bodies", "sides",
                          "which of its layers would go on is not known"});
       if (truncation[i] == Truncation::sides && reduce == Reduce::automatic)
-        found.push_back({key, "sides, beside reduce: auto", "one of the two",
-                         "reduce tells what the sides change"});
+        found.push_back({key, "sides, together with reduce: auto", "one of the two",
+                         "reduce reports what the sides change"});
     }
     const bool by_cells = estimate == EstimateBy::dual || estimate == EstimateBy::recovery;
     const std::string asked = key_of_accuracy();
@@ -400,15 +400,15 @@ struct SolveConfig {
       const bool moved = std::any_of(loads.begin(), loads.end(),
                                      [](const LoadConfig& l) { return !l.on_surface(); });
       if (pushed)
-        found.push_back({key, "found beside an indenter under force control",
-                         "one that moves as told",
-                         "errors are told of its force, which is given here"});
+        found.push_back({key, "found together with an indenter under force control",
+                         "one that follows `motion`",
+                         "errors are estimated of its force, which is given here"});
       else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) &&
                (accuracy || fidelity || refines))
         found.push_back(
             {key, "found where forces alone load the body",
              "an indenter, an imposed displacement, or points in the mesh",
-             "errors are told of the force that it needs, or of the displacement of mesh.points; estimate: recovery tells "
+             "errors are estimated of the force that it needs, or of the displacement of mesh.points; estimate: recovery reports "
              "that of the stress"});
     }
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
@@ -431,14 +431,14 @@ struct SolveConfig {
     if (key.empty() && by_numbers) key = "estimate";
     if (!key.empty())
       found.push_back(
-          {key, "found beside mesh.cuts", "a mesh without cuts",
+          {key, "found together with mesh.cuts", "a mesh without cuts",
            "cells of other lengths are made from the mesh's numbers; estimate: dual judges cut cells as they are"});
     if (reduce == Reduce::automatic)
       found.push_back(
-          {"reduce", "auto, beside mesh.cuts", "one of the two", "sections have no cuts"});
+          {"reduce", "auto, together with mesh.cuts", "one of the two", "sections have no cuts"});
     if (!truncation.empty())
       found.push_back(
-          {"truncation", "found beside mesh.cuts", "none", "wider bodies are made without cuts"});
+          {"truncation", "found together with mesh.cuts", "none", "wider bodies are made without cuts"});
   }
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
@@ -448,7 +448,7 @@ struct SolveConfig {
       const std::string last = key + "[" + std::to_string(points.size() - 1) + "].s";
       if (!path.seconds)
         found.push_back({last, "found seconds, and the path has none",
-                         "path: {seconds: ...}, or t in place of s", ""});
+                         "path: {seconds: ...}, or t instead of s", ""});
       else if (end > *path.seconds * (1 + 1e-9))
         found.push_back(
             {last, "found a time behind the end of the path", "path.seconds at most", ""});
@@ -463,7 +463,7 @@ struct SolveConfig {
                          "found on a path without seconds", "path: {seconds: ...}", ""});
       if (contact.adhesion && std::holds_alternative<KinsolOptions>(solver))
         found.push_back(
-            {"contacts." + name + ".adhesion", "found beside solver.kinsol", "solver: {newton: {}}",
+            {"contacts." + name + ".adhesion", "found together with solver.kinsol", "solver: {newton: {}}",
              "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
       look_at(contact.motion, "contacts." + name + ".motion");
       if (contact.control)

@@ -48,7 +48,7 @@ void check_memory(const Statics& statics, const Statics* beside, int threads) {
               "this run needs {} more than the {} it holds already, for its tangent; {} are free",
               memory_in_words(wanted), memory_in_words(resident_bytes()), memory_in_words(free)),
           "",
-          "a coarser or graded mesh, or a machine with more memory; --dry-run tells what a mesh takes"});
+          "a coarser or graded mesh, or a machine with more memory; --dry-run reports what a mesh takes"});
 }
 
 Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,

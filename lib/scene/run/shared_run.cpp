@@ -14,7 +14,7 @@ std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image) 
   if (newton->linear == LinearBy::direct)
     return "solver.newton.linear: direct is a factor, which one process makes";
   if (config.accuracy || config.fidelity || config.reduce == Reduce::automatic)
-    return "other models may be solved beside this one";
+    return "other models may be solved together with this one";
   if (config.estimate && *config.estimate != EstimateBy::none &&
       *config.estimate != EstimateBy::recovery)
     return "the estimate of its errors solves other scenes, or by a factor";
