@@ -58,10 +58,10 @@ void Statics::begin(double t) {
 // kink between them.
 bool Statics::continues_motion() const {
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    if (!p.in_proportion() && !p.goes_on(before_.t, now_.t, t_)) return false;
+    if (!p.in_proportion() && !p.keeps_rate(before_.t, now_.t, t_)) return false;
   for (const RigidContact& contact : contacts_)
-    if (contact.rotation && !contact.rotation->angle.goes_on(before_.t, now_.t, t_)) return false;
-  return equilibrium_.loads().goes_on(before_.t, now_.t, t_);
+    if (contact.rotation && !contact.rotation->angle.keeps_rate(before_.t, now_.t, t_)) return false;
+  return equilibrium_.loads().keeps_rate(before_.t, now_.t, t_);
 }
 
 // Starts the increment from u_n + s (u_n - u_{n-1}), unless an element would be inverted there.
