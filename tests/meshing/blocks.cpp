@@ -261,6 +261,5 @@ TEST_CASE("an O-grid that cannot be is refused: order of radii, odd core, points
   const std::string off = refusal(
       ring("{half_width: 1, cells: 4}", "[{radius: 2, cells: 2}]", "points:\n  A: [2.1, 4, 0]\n"));
   CHECK(holds(
-      off,
-      "mesh.yaml:10:3: points.A: no node is there; the nearest is 0.1 mm away, at (2, 4, 0)"));
+      off, "mesh.yaml:10:3: points.A: no node is there; the nearest is 0.1 mm away, at (2, 4, 0)"));
 }

@@ -198,9 +198,9 @@ TEST_CASE("cells that are none of ours, two kinds, or too few nodes are refused 
     CHECK(refusal(std::string("*ELEMENT, TYPE=") + type + "\n")
               .starts_with(std::string("m.inp:1:1: found elements ") + type));
   const std::string eight = "*ELEMENT, TYPE=C3D8R\n1, 1, 2, 3, 4, 5, 6, 7, 8\n";
-  CHECK(
-      refusal(eight + "*ELEMENT, TYPE=C3D10\n")
-          .starts_with("m.inp:3:1: found elements C3D10 together with C3D8R; expected cells of one kind"));
+  CHECK(refusal(eight + "*ELEMENT, TYPE=C3D10\n")
+            .starts_with(
+                "m.inp:3:1: found elements C3D10 together with C3D8R; expected cells of one kind"));
   CHECK(refusal(eight + "*ELEMENT, TYPE=C3D20\n")
             .starts_with("m.inp:3:1: found elements C3D20 together with C3D8R"));
   CHECK(refusal("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4,\n5, 6, 7\n*NODE\n")

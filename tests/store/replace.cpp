@@ -107,13 +107,14 @@ TEST_CASE(
   const std::string folder = example::folder("pictures");
   begin_beside(folder + "/curves.h5");
   write_bytes(folder + "/render.png", "a photograph");
-  CHECK(
-      holds(refusal([&] { require_replaceable_from(folder + "/render.png", folder + "/render.gp"); }),
-            "was not made by this step"));
+  CHECK(holds(
+      refusal([&] { require_replaceable_from(folder + "/render.png", folder + "/render.gp"); }),
+      "was not made by this step"));
   write_bytes(folder + "/render.gp", "# made by langer\n");  // of a run that was killed
   CHECK(refusal([&] { require_replaceable_from(folder + "/render.png", folder + "/render.gp"); }) ==
         "");
-  CHECK(refusal([&] { require_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) == "");
+  CHECK(refusal([&] { require_replaceable_from(folder + "/other.png", folder + "/other.gp"); }) ==
+        "");
   write_bytes(folder + "/snapshot_0001.hdf", "\x89HDF\r\n\x1a\n of another program");
   CHECK(holds(refusal([&] { h5::File::create(folder + "/snapshot_0001.hdf"); }),
               "was not made by langer"));

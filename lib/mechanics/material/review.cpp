@@ -113,9 +113,10 @@ std::vector<MaterialFinding> review(const Material& material) {
   }
   if (bulk > largest_ratio * shear) {
     found.push_back(
-        {key, fmt::format("the bulk modulus is {:.2g} times the shear modulus: rounding removes most "
-                          "digits of the stress; {} is as good as incompressible",
-                          bulk / shear, volume_key(material.volume, harmless_ratio * shear))});
+        {key,
+         fmt::format("the bulk modulus is {:.2g} times the shear modulus: rounding removes most "
+                     "digits of the stress; {} is as good as incompressible",
+                     bulk / shear, volume_key(material.volume, harmless_ratio * shear))});
   }
   return found;
 }

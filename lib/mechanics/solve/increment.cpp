@@ -60,7 +60,8 @@ bool Statics::continues_motion() const {
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
     if (!p.in_proportion() && !p.keeps_rate(before_.t, now_.t, t_)) return false;
   for (const RigidContact& contact : contacts_)
-    if (contact.rotation && !contact.rotation->angle.keeps_rate(before_.t, now_.t, t_)) return false;
+    if (contact.rotation && !contact.rotation->angle.keeps_rate(before_.t, now_.t, t_))
+      return false;
   return equilibrium_.loads().keeps_rate(before_.t, now_.t, t_);
 }
 

@@ -91,7 +91,8 @@ class PipelineParser {
   void known_keys(const Tree& tree, const std::string& path,
                   const std::vector<std::string>& known) {
     for (const auto& entry : tree.map)
-      if (std::ranges::find(known, entry.key) == known.end()) report_unknown_key(entry, path, known, f);
+      if (std::ranges::find(known, entry.key) == known.end())
+        report_unknown_key(entry, path, known, f);
   }
   // The value of a required key; an error and nullptr if it is missing.
   const Tree* require(const Tree& tree, const std::string& path, const std::string& key,

@@ -65,8 +65,8 @@ Tree grid_axis() {
 
 Tree design_axis(Definitions& definitions) {
   const Member design{"design", unit::none, "a design of experiments", false, {}, {}, ""};
-  return keys_of_map({{"design", described(value_schema<Design>(design, true, definitions), design)}},
-                     {"design"});
+  return keys_of_map(
+      {{"design", described(value_schema<Design>(design, true, definitions), design)}}, {"design"});
 }
 
 Tree samples_axis() {

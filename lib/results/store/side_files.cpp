@@ -101,7 +101,8 @@ SideFolder side_folder(const std::string& output, const std::string& stage,
     if (!chosen.owner.empty()) chosen.path = own.string();
   }
   if (!chosen.owner.empty()) make_folder_below(plain.string(), own.string());
-  for (const std::string& name : names) require_replaceable((fs::path(chosen.path) / name).string());
+  for (const std::string& name : names)
+    require_replaceable((fs::path(chosen.path) / name).string());
   return chosen;
 }
 

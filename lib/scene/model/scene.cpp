@@ -116,7 +116,8 @@ void refuse_angles_without_effect(const std::vector<double>& angles,
   for (const Error& e : errors)
     if (e.key == key) return;
   errors.push_back(
-      {where(key), key, "found together with fibre_field, which gives the direction of the only family",
+      {where(key), key,
+       "found together with fibre_field, which gives the direction of the only family",
        "one of the two",
        "`fibre_field: null` takes an included field away, `fibre_angles: []` included angles"});
 }

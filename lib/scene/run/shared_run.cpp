@@ -75,7 +75,8 @@ bool share(const Ranks& ranks, std::optional<Resumed>& resumed, const BodyState&
   for (BodyState* state : {&resumed->now, &resumed->before}) {
     tell(state->t);
     tell(state->travel);
-    ranks.broadcast_from_root(state->u.data(), static_cast<std::size_t>(state->u.size()) * sizeof(double));
+    ranks.broadcast_from_root(state->u.data(),
+                              static_cast<std::size_t>(state->u.size()) * sizeof(double));
     for (std::vector<Vec3>& reactions : state->r)
       ranks.broadcast_from_root(reactions.data(), reactions.size() * sizeof(Vec3));
   }
