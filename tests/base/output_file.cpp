@@ -108,7 +108,7 @@ TEST_CASE("a journal keeps what it holds, unless it is a second name of another 
   CHECK(bytes(journal) == "steps\n");
   fs::remove(journal);
   fs::create_hard_link(folder / "victim.txt", journal);
-  CHECK(holds(refusal([&] { open_kept_file(journal); }), "is another name of a file"));
+  CHECK(holds(refusal([&] { open_kept_file(journal); }), "is a hard link"));
   CHECK(bytes(folder / "victim.txt") == "my thesis\n");
 }
 

@@ -75,8 +75,8 @@ std::string scene(const Strut& s) {
       -s.shorten);
   if (s.both_ends) {
     ends = fmt::format(
-        "loads: [{{on: x_min, displacement: {{x: {}, y: 0, z: 0}}}}, "
-        "{{on: x_max, displacement: {{x: {}, y: 0, z: 0}}}}]\n",
+        "supports: [{{on: x_min, hold: [y, z]}}, {{on: x_max, hold: [y, z]}}]\n"
+        "loads: [{{on: x_min, displacement: {{x: {}}}}}, {{on: x_max, displacement: {{x: {}}}}}]\n",
         0.5 * s.shorten, -0.5 * s.shorten);
   }
   return fmt::format(

@@ -66,7 +66,7 @@ solve_says(2 "no node touches the indenter, which is up to 0.04 mm inside the bo
 # through the body in one increment: out of it before and after; past it: no word of that
 solve_says(2 "mm inside nodes that supports hold, at (0, 0, "
   "  s: {rigid: {sphere: {radius: 1.5, centre: [0, 6, 0]}}, motion: [{t: 1, to: [0, -8, 0]}]}\npath: {steps: 1}\n")
-solve_says(2 "passes through the body"
+solve_says(2 "mm inside nodes that supports hold"
   "  s: {rigid: {ellipsoid: {half_axes: [1.2, 1, 1.6], centre: [0, 5.5, 0]}}, motion: [{t: 1, to: [0.5, -9, 0]}]}\npath: {steps: 1}\n")
 solve_says(0 "never touches the body"
   "  s: {on: top, rigid: {sphere: {radius: 1.5, centre: [8, 6, 0]}}, motion: [{t: 1, to: [0, -8, 0]}]}\npath: {steps: 1}\n")

@@ -61,7 +61,7 @@ if(NOT EXISTS ${folder}/killed/material.h5.runs OR EXISTS ${folder}/killed/mater
   message(FATAL_ERROR "a killed fit keeps its runs, and has no result")
 endif()
 run(0 ${BIN}/langer-fit fit.yaml -o killed/material.h5)
-expect_said(" runs that an earlier fit made")
+expect_said(" cached runs of an earlier fit")
 if(EXISTS ${folder}/killed/material.h5.runs)
   message(FATAL_ERROR "the runs of a fit that is done are still there")
 endif()

@@ -19,7 +19,7 @@ bool breaking_at_each_step(const Run& run, const SolveConfig& config) {
 StabilityWatch::Reach reach_of(const Run& run, const SolveConfig& config) {
   if (run.reduction.kind() == Reduction::Kind::section) return StabilityWatch::Reach::section;
   const bool each_step = breaking_at_each_step(run, config) && !run.body.division();
-  if (run.reduction.kind() == Reduction::Kind::none) return StabilityWatch::Reach::whole_body;
+  if (run.reduction.kind() != Reduction::Kind::symmetry) return StabilityWatch::Reach::whole_body;
   return each_step ? StabilityWatch::Reach::whole_of_reduced
                    : StabilityWatch::Reach::symmetric_until_the_end;
 }

@@ -81,7 +81,7 @@ MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck wh
   if (last) whole = run.reduction.whole(*last);
   if (!whole) return {};
   int n_examined = 0;
-  if (examined && when == StabilityCheck::each_step) n_examined = steps;
+  if (examined && when != StabilityCheck::off) n_examined = steps;
   if (examined && when == StabilityCheck::last) n_examined = 1;
   LinearSolver::Size size;
   if (examined) size = examined->size();
