@@ -65,8 +65,8 @@ TEST_CASE(
 
 TEST_CASE(
     "a key beside its former name is refused, and neither former keys nor former words are offered") {
-  CHECK(refusal("parts: [{size: 1, length: 3}]\n").find("parts[0].length: found together with size") !=
-        std::string::npos);
+  CHECK(refusal("parts: [{size: 1, length: 3}]\n")
+            .find("parts[0].length: found together with size") != std::string::npos);
   const std::string unknown = refusal("colour: gren\nparts: [{lengt: 3}]\n");
   CHECK(unknown.find("expected one of red, blue") != std::string::npos);
   CHECK(unknown.find("known: size") != std::string::npos);

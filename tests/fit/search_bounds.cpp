@@ -27,8 +27,9 @@ law:
 
 FreeParameter free_number(const std::string& key, const std::string& bounds,
                           const std::string& keys = "") {
-  const std::string yaml = "data: [{file: curve.csv, columns: {time: t_s, strain_x: e, stress_x: s}}]\nbounds: " + bounds +
-                           "\nparameters: [{key: \"" + key + "\"" + keys + "}]" + law;
+  const std::string yaml =
+      "data: [{file: curve.csv, columns: {time: t_s, strain_x: e, stress_x: s}}]\nbounds: " +
+      bounds + "\nparameters: [{key: \"" + key + "\"" + keys + "}]" + law;
   const FitConfig config = read_config<FitConfig>(parse_yaml(yaml, "fit.yaml", ".")).config;
   return free_parameters(config).front();
 }

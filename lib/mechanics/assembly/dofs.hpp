@@ -44,7 +44,7 @@ struct Prescribed {
   }
   bool in_proportion() const { return !factor && !turn; }  // to t
   bool keeps_rate(double before, double now,
-               double next) const;  // at the rate that it had, or turning at that rate
+                  double next) const;  // at the rate that it had, or turning at that rate
   bool moves_as(const Prescribed& other) const {
     return value == other.value && same_factor(factor, other.factor) && turn == other.turn;
   }

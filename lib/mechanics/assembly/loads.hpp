@@ -30,7 +30,7 @@ class Loads {
   bool follow() const;                    // some of them are pressures
   bool moves(double t0, double t) const;  // some load changes from t0 to t
   bool keeps_rate(double before, double now,
-               double next) const;  // at the same rates in both intervals
+                  double next) const;  // at the same rates in both intervals
 
   // What acts on each facet at t, one row per node of its cell [N], and for a pressure -d force/dx,
   // symmetric, where it is asked for.

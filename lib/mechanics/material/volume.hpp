@@ -17,7 +17,8 @@ using Volume = std::variant<QuadraticVolume, LogarithmicVolume, SimoTaylorVolume
 template <class T>
 Energy<T> volume_energy(const Volume& volume, const T& J_minus_1) {
   return std::visit(
-      [&](const auto& law) { return law.at_volume_change(nan_outside_domain(law, J_minus_1)); }, volume);
+      [&](const auto& law) { return law.at_volume_change(nan_outside_domain(law, J_minus_1)); },
+      volume);
 }
 
 inline double bulk_modulus(const Volume& volume) {

@@ -143,15 +143,17 @@ struct MeshConfig {
                          "change a thickness, or the second number of its size"});
     }
     if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
-      found.push_back({"cuts", "found together with other cells than the hex8 of a body", "none", ""});
-    if (!cuts.empty() && !exports.empty())
       found.push_back(
-          {"export", "found together with cuts", "none: other programs know no nodes that hang", ""});
+          {"cuts", "found together with other cells than the hex8 of a body", "none", ""});
+    if (!cuts.empty() && !exports.empty())
+      found.push_back({"export", "found together with cuts",
+                       "none: other programs know no nodes that hang", ""});
     if (!exports.empty() && is_section(geometry))
       found.push_back({"export", "found with a section",
                        "none: other programs have sections of their own", ""});
     else if (!exports.empty() && !cell.names.abaqus.written)
-      found.push_back({"export", std::string("found together with cells: ") + name, "cells: hex8", ""});
+      found.push_back(
+          {"export", std::string("found together with cells: ") + name, "cells: hex8", ""});
     const auto sides = side_names();
     const auto is_side = [&](const std::string& name) {
       return std::find(sides.begin(), sides.end(), name) != sides.end();

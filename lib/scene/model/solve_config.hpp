@@ -437,8 +437,8 @@ struct SolveConfig {
       found.push_back(
           {"reduce", "auto, together with mesh.cuts", "one of the two", "sections have no cuts"});
     if (!truncation.empty())
-      found.push_back(
-          {"truncation", "found together with mesh.cuts", "none", "wider bodies are made without cuts"});
+      found.push_back({"truncation", "found together with mesh.cuts", "none",
+                       "wider bodies are made without cuts"});
   }
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
@@ -463,7 +463,8 @@ struct SolveConfig {
                          "found on a path without seconds", "path: {seconds: ...}", ""});
       if (contact.adhesion && std::holds_alternative<KinsolOptions>(solver))
         found.push_back(
-            {"contacts." + name + ".adhesion", "found together with solver.kinsol", "solver: {newton: {}}",
+            {"contacts." + name + ".adhesion", "found together with solver.kinsol",
+             "solver: {newton: {}}",
              "bonds soften as they come loose, and KINSOL's rounds take them as fixed"});
       look_at(contact.motion, "contacts." + name + ".motion");
       if (contact.control)
