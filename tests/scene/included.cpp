@@ -103,7 +103,7 @@ TEST_CASE(
   CHECK(terms(read<Material>(folder.tree("cured.yaml"))) == "yeoh");
   folder.write("mixed.yaml",
                "include: law.yaml\nmatrix: {yeoh: {a1: 0.5}, gent: {mu: 1, Jm: 10}}\n");
-  CHECK(said<Material>(folder.tree("mixed.yaml")).find("found yeoh, gent beside") !=
+  CHECK(said<Material>(folder.tree("mixed.yaml")).find("found yeoh, gent together with") !=
         std::string::npos);
   // a sum in one file is a sum
   CHECK(terms(read<Material>(folder.tree("law.yaml"))) == "yeoh neo_hooke");
