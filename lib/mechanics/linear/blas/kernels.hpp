@@ -2,8 +2,8 @@
 //
 // OpenBLAS contains kernels for many processors and chooses one set when it is loaded. A version
 // that is older than the processor may not recognise it. It then falls back to the oldest set
-// (Prescott, SSE3), which factorizes at little more than half the speed. The choice can be made by the
-// environment variable OPENBLAS_CORETYPE, but only before the library is loaded. A program that
+// (Prescott, SSE3), which factorizes at little more than half the speed. The choice can be made by
+// the environment variable OPENBLAS_CORETYPE, but only before the library is loaded. A program that
 // notices a fallback therefore sets the variable and executes itself again, once.
 //
 // A user who sets OPENBLAS_CORETYPE keeps that choice. Another BLAS is left alone.
