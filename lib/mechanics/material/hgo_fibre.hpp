@@ -31,10 +31,15 @@ struct HgoFibre {
     const T x2 = x * x;
     const T y = c2 * x2;
     const T e = exp(y);
-    // For small y the difference exp(y) - 1 loses digits; the series of phi keeps them.
-    T W = (0.5 * c1) * x2 * (1.0 + 0.5 * y * (1.0 + y * (1.0 / 3)));
-    if (c2 > 1e-6) W = c1 / (2 * c2) * (e - 1.0);
-    return {W, c1 * x * e, c1 * e * (1.0 + 2 * c2 * x2)};
+    return {energy(x2, y, e), c1 * x * e, c1 * e * (1.0 + 2 * y)};
+  }
+
+ private:
+  // For small y the difference e - 1 loses digits, e = exp(y); the series of phi keeps them.
+  template <class T>
+  T energy(T x2, T y, T e) const {
+    if (c2 > 1e-6) return c1 / (2 * c2) * (e - 1.0);
+    return (0.5 * c1) * x2 * (1.0 + 0.5 * y * (1.0 + y * (1.0 / 3)));
   }
 };
 
