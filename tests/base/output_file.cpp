@@ -7,13 +7,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "support/refusal.hpp"
 
 using namespace langer;
+using langer::example::holds;
+using langer::example::refusal;
 
 namespace {
 
@@ -32,20 +33,6 @@ fs::path folder_with_victim(const std::string& name) {
 std::string bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == Exit::input);
-    return failure.what();
-  }
-  return "";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 void write_with(int fd, const std::string& text) {

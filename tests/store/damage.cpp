@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/hdf5/h5.hpp"
-#include "refusal.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
 #include "results/store/provenance.hpp"
 #include "solution_example.hpp"
+#include "support/refusal.hpp"
 
 using namespace langer;
 using example::bytes;

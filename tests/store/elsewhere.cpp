@@ -6,11 +6,11 @@
 
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/unit_attribute.hpp"
-#include "refusal.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
 #include "results/store/mesh_file.hpp"
 #include "solution_example.hpp"
+#include "support/refusal.hpp"
 
 using namespace langer;
 using example::holds;

@@ -9,12 +9,12 @@
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/seal.hpp"
 #include "example.hpp"
-#include "refusal.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/journal.hpp"
 #include "results/store/lock.hpp"
 #include "results/store/mesh_file.hpp"
 #include "results/store/side_files.hpp"
+#include "support/refusal.hpp"
 
 using namespace langer;
 using example::holds;
