@@ -30,6 +30,7 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
     : run_(run),
       when_(config.stability),
       on_unstable_(config.on_unstable),
+      breaking_at_each_step_(breaking_at_each_step(run, config)),
       stability_(std::move(tests), reach_of(run, config)),
       result_(run.body) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
@@ -57,8 +58,7 @@ void RunWatch::kept(const StepRecord& step) {
 bool RunWatch::breaking_at(bool at_end) const {
   if (run_.body.division() || run_.statics.iterative()) return false;  // no factor that shows signs
   if (at_end) return true;
-  return when_ == StabilityCheck::each_step || on_unstable_ == OnUnstable::stop ||
-         run_.scene.contacts.empty();
+  return breaking_at_each_step_;
 }
 
 std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {

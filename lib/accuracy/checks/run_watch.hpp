@@ -53,6 +53,7 @@ class RunWatch {
   Run& run_;
   StabilityCheck when_;
   OnUnstable on_unstable_;
+  bool breaking_at_each_step_;   // movements that break the symmetry, not at the end only
   std::optional<Statics> mesh_;  // of a homogeneous body, whose stability is that of its mesh
   std::optional<SymmetryBreaking> breaking_;
   StabilityWatch stability_;

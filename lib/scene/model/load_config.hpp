@@ -13,13 +13,16 @@
 
 namespace langer {
 
+// x, y or z of a load whose components have histories of their own.
+const std::optional<HistoryConfig>& component(const auto& load, int axis) {
+  if (axis == 0) return load.x;
+  if (axis == 1) return load.y;
+  return load.z;
+}
+
 struct Displacement {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const {
-    if (axis == 0) return x;
-    if (axis == 1) return y;
-    return z;
-  }
+  const std::optional<HistoryConfig>& along(int axis) const { return component(*this, axis); }
   static void fields(auto& v) {
     constexpr const char* says =
         "displacement at the end of the path, in proportion to t; or [{t: 0.5, to: 2}, {t: 1, to: 2}]";
@@ -31,11 +34,7 @@ struct Displacement {
 
 struct DeadForce {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const {
-    if (axis == 0) return x;
-    if (axis == 1) return y;
-    return z;
-  }
+  const std::optional<HistoryConfig>& along(int axis) const { return component(*this, axis); }
   static void fields(auto& v) {
     constexpr const char* says =
         "at the end of the path, in proportion to t; or a history, as a displacement";
@@ -47,11 +46,7 @@ struct DeadForce {
 
 struct DeadTraction {
   std::optional<HistoryConfig> x, y, z;
-  const std::optional<HistoryConfig>& along(int axis) const {
-    if (axis == 0) return x;
-    if (axis == 1) return y;
-    return z;
-  }
+  const std::optional<HistoryConfig>& along(int axis) const { return component(*this, axis); }
   static void fields(auto& v) {
     constexpr const char* says =
         "at the end of the path, in proportion to t; or a history, as a displacement";

@@ -364,9 +364,9 @@ void refuse_path_through_supports(const RigidContact& rigid, const ConstraintBui
                                   const Mesh& mesh, const std::string& key, const Find& where,
                                   std::vector<Error>& errors) {
   if (rigid.control || rigid.motion.empty()) return;
+  const BoundingBox box = bounding_box(mesh.X);
   // a start inside the body is refused as that
   if (const auto inside = point_inside(rigid.shape)) {
-    const BoundingBox box = bounding_box(mesh.X);
     const bool in_box =
         (inside->array() >= box.low.array()).all() && (inside->array() <= box.high.array()).all();
     if (in_box) return;
@@ -378,7 +378,6 @@ void refuse_path_through_supports(const RigidContact& rigid, const ConstraintBui
   // edge of a block that is held at a side. They are no candidates, and the others can give way.
   std::vector<double> gap;
   for (const Vec3& X : mesh.X) gap.push_back(shape_at(rigid.shape, X).gap);
-  const BoundingBox box = bounding_box(mesh.X);
   const double met_first = *std::ranges::min_element(gap) + 1e-6 * (box.high - box.low).norm();
   double begin = 0;
   for (std::size_t i = 0; i < rigid.motion.size(); ++i) {

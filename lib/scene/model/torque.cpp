@@ -11,6 +11,17 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 std::string torque_name(const std::string& name) { return "torque_" + name; }
 
+// About the axis of a turned set at time t. force: (n) at all nodes, reactions or their
+// derivatives.
+double torque(const TurnedSet& set, double t, const auto& position,
+              const std::vector<Vec3>& force) {
+  const Vec3 p = set.axis_at(t);
+  double sum = 0;
+  for (int node : set.nodes)
+    sum += set.axis.along.dot(cross(position(node) - p, force[static_cast<std::size_t>(node)]));
+  return sum;
+}
+
 }  // namespace
 
 // The torque about the axis of each rotating indenter and turned set,
@@ -30,13 +41,8 @@ void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
         torque(contact, position, c, whole.contacts.at(contact.name).r);
   }
   for (const TurnedSet& set : scene.turned) {
-    const Vec3 p = set.axis_at(whole.t);
-    double sum = 0;
-    for (int node : set.nodes)
-      sum += set.axis.along.dot(
-          cross(position(node) - p, whole.reaction[static_cast<std::size_t>(node)]));
     whole.scalars["angle_" + set.name] = degrees * set.angle.at(whole.t);
-    whole.scalars[torque_name(set.name)] = sum;
+    whole.scalars[torque_name(set.name)] = torque(set, whole.t, position, whole.reaction);
   }
 }
 
@@ -70,12 +76,7 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
     out[torque_name(contact.name)] = sum;
   }
   for (const TurnedSet& set : scene.turned) {
-    const Vec3 p = set.axis_at(whole.t);
-    double sum = 0;
-    for (int node : set.nodes)
-      sum += set.axis.along.dot(
-          cross(x(node) - p, derivative.reaction[static_cast<std::size_t>(node)]));
-    out[torque_name(set.name)] = sum;
+    out[torque_name(set.name)] = torque(set, whole.t, x, derivative.reaction);
   }
   return out;
 }
