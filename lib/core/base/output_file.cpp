@@ -36,11 +36,14 @@ namespace {
          "remove the link: a run writes plain files only");
 }
 
-// A hidden name beside the file. The operating system's random numbers make it unpredictable, so
+constexpr std::string_view hidden_prefix = ".langer-";
+constexpr std::size_t hidden_digits = 16;
+
+// A hidden name next to the file. The operating system's random numbers make it unpredictable, so
 // that nobody can lay a link there first.
 std::string unpredictable_name() {
   std::random_device random;
-  return fmt::format(".langer-{:08x}{:08x}", random(), random());
+  return fmt::format("{}{:08x}{:08x}", hidden_prefix, random(), random());
 }
 
 int create_exclusively(const std::string& path) {
@@ -70,13 +73,13 @@ int lock_folder(const fs::path& folder, int how) {
 
 // Removes private folders that killed runs have left.
 void remove_abandoned_folders(const std::string& parent) {
-  const std::string_view begin = ".langer-";
   std::error_code failed;
   std::vector<fs::path> abandoned;
   for (const auto& entry : fs::directory_iterator(text_or(parent, "."), failed)) {
     const std::string name = entry.path().filename();
-    const bool ours = name.starts_with(begin) && name.size() == begin.size() + 16 &&
-                      name.find_first_not_of("0123456789abcdef", begin.size()) == name.npos;
+    const bool ours = name.starts_with(hidden_prefix) &&
+                      name.size() == hidden_prefix.size() + hidden_digits &&
+                      name.find_first_not_of("0123456789abcdef", hidden_prefix.size()) == name.npos;
     if (ours && entry.is_directory(failed) && !entry.is_symlink(failed))
       abandoned.push_back(entry.path());
   }
