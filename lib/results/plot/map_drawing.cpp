@@ -255,8 +255,13 @@ class Painter {
     const PagePoint b = page({window_.x_high, window_.z_high});
     drawing_.marks.push_back(Stroke{{a, {b[0], a[1]}, b, {a[0], b[1]}, a}, ink, 0.8});
     for (int axis = 0; axis < 2; ++axis) {
-      std::vector<double> at = ticks(window_.x_low, window_.x_high, 4);
-      if (axis == 1) at = ticks(window_.z_low, window_.z_high, 4);
+      double low = window_.x_low;
+      double high = window_.x_high;
+      if (axis == 1) {
+        low = window_.z_low;
+        high = window_.z_high;
+      }
+      const std::vector<double> at = ticks(low, high, 4);
       const std::vector<std::string> texts = tick_texts(at);
       for (std::size_t i = 0; i < at.size(); ++i) {
         PagePoint p{page({at[i], 0})[0], b[1]};

@@ -275,8 +275,12 @@ Patches::Smooth Patches::fit_gauss_fields(const std::vector<MatX>& values) const
     Eigen::Index row = 0;
     for (int e : patch.cells)
       for (Eigen::Index g = 0; g < points; ++g) {
-        Vec3 X = middle(mesh, e);
-        if (points > 1) X = gauss_position(mesh, e, static_cast<int>(g));
+        Vec3 X;
+        if (points > 1) {
+          X = gauss_position(mesh, e, static_cast<int>(g));
+        } else {
+          X = middle(mesh, e);
+        }
         A.row(row) = terms(patch, X, false).transpose();
         b.row(row) = values[static_cast<std::size_t>(e)].row(g);
         ++row;
