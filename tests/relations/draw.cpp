@@ -227,6 +227,15 @@ History drawn_history(Draw& draw, double value) {
   return {{1, value}};
 }
 
+// A block of one or several materials that is held at its bottom; nothing loads it yet.
+Scene block_on_its_bottom(Draw& draw) {
+  Scene scene;
+  scene.body = drawn_block(draw);
+  add_laws(draw, scene, false);
+  hold_bottom(draw, scene);
+  return scene;
+}
+
 // Loads
 
 Scene pulled(Draw& draw) {
@@ -245,10 +254,7 @@ Scene pulled(Draw& draw) {
 }
 
 Scene loaded_by_force(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   add_patch(scene.body, "patch");
   const std::array<std::string, 4> where{"high", "patch", "right", "left"};
   const int n = 1 + draw.below(2);
@@ -271,10 +277,7 @@ Scene loaded_by_force(Draw& draw) {
 }
 
 Scene under_pressure(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   add_patch(scene.body, "patch");
   const std::array<std::string, 3> where{"high", "patch", "right"};
   Load load{where[draw.below(3)], LoadKind::pressure};
@@ -290,10 +293,7 @@ Scene under_pressure(Draw& draw) {
 }
 
 Scene twisted(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   add_patch(scene.body, "disc");
   // nodes that a side holds cannot turn
   const bool all = scene.supports.size() == 1 && draw.coin();
@@ -316,10 +316,7 @@ Contact drawn_sphere(Draw& draw, const Body& body, double x, double z) {
 double drawn_depth(Draw& draw, const Body& body) { return draw.uniform(0.08, 0.2) * body.size[1]; }
 
 Scene indented(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   const bool centred = draw.coin();
   const double x = centred ? 0 : draw.uniform(-0.5, 0.5);
   const double z = centred ? 0 : draw.uniform(-0.5, 0.5);
@@ -345,10 +342,7 @@ Scene indented(Draw& draw) {
 }
 
 Scene several_indenters(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   const double apart = 0.25 * scene.body.size[0];
   const bool alike = draw.coin();
   const double depth = drawn_depth(draw, scene.body);
@@ -367,10 +361,7 @@ Scene several_indenters(Draw& draw) {
 }
 
 Scene other_shape(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   Contact contact{"tool", "high"};
   contact.friction = draw.coin() ? 0 : draw.uniform(0.05, 0.8);
   const double depth = 0.7 * drawn_depth(draw, scene.body);
@@ -397,10 +388,7 @@ Scene other_shape(Draw& draw) {
 }
 
 Scene pushed(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   Contact contact = drawn_sphere(draw, scene.body, draw.coin() ? 0 : 0.3, 0);
   contact.on = "high";
   contact.friction = draw.coin() ? 0 : draw.uniform(0.05, 0.8);
@@ -415,10 +403,7 @@ Scene pushed(Draw& draw) {
 }
 
 Scene turned_indenter(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   Contact contact = drawn_sphere(draw, scene.body, 0, 0);
   contact.on = "high";
   contact.friction = draw.uniform(0.1, 0.8);
@@ -436,10 +421,7 @@ Scene turned_indenter(Draw& draw) {
 }
 
 Scene adhesive(Draw& draw) {
-  Scene scene;
-  scene.body = drawn_block(draw);
-  add_laws(draw, scene, false);
-  hold_bottom(draw, scene);
+  Scene scene = block_on_its_bottom(draw);
   Contact contact = drawn_sphere(draw, scene.body, 0, 0);
   contact.on = "high";
   contact.friction = draw.coin() ? 0 : draw.uniform(0.05, 0.5);
