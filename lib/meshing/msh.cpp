@@ -28,8 +28,7 @@ std::vector<MshGroup> named(std::vector<MshGroup> groups) {
   constexpr const char* kinds[] = {"points", "curves", "surfaces", "volume"};
   for (MshGroup& group : groups)
     if (group.name.empty()) group.name = fmt::format("{}_{}", kinds[group.dim], group.tag);
-  std::stable_sort(groups.begin(), groups.end(),
-                   [](const MshGroup& a, const MshGroup& b) { return a.dim > b.dim; });
+  std::ranges::stable_sort(groups, std::ranges::greater{}, &MshGroup::dim);
   return groups;
 }
 

@@ -30,6 +30,7 @@ def without_texts(line):
     return line.split("//")[0]
 
 
+CAPTURES = re.compile(r"= \[[^\]]*(\]|$)")
 JOINED = re.compile(r"^[\w\.\->\[\]\(\)]+ [-+*/|&]?= [^;]*, [\w\.\->\[\]]+ [-+*/|&]?= ")
 
 
@@ -55,7 +56,7 @@ def main():
             counts["conditional operators"] += conditionals
             if conditionals > 1:
                 found.append(f"{name}:{number}: two conditional operators; write if and else")
-            if JOINED.match(plain):
+            if JOINED.match(CAPTURES.sub("= []", plain)):
                 found.append(f"{name}:{number}: statements joined by a comma; write one on each line")
             if plain.count(";") > 1 and not re.match(r"for ?\(", plain):
                 counts["lines with several statements"] += 1

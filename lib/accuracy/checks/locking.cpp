@@ -39,8 +39,9 @@ CellSums sums(const Assembler& body, const VecX& u, int e) {
   }
   for (int g = 0; g < n; ++g) {
     double of_modes = 0;
-    for (int k = too_soft ? 1 : 0; k < (modal ? n_modes : 1); ++k)
-      of_modes += t[k] * (k == 0 ? 1 : geometry.mode[g][k]);
+    const int first = too_soft ? 1 : 0;
+    const int end = modal ? n_modes : 1;
+    for (int k = first; k < end; ++k) of_modes += t[k] * (k == 0 ? 1 : geometry.mode[g][k]);
     double theta = 0;
     if (too_soft) {
       theta = of_modes;

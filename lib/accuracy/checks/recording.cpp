@@ -58,29 +58,40 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
 
 }  // namespace
 
-Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity, const std::string& output,
-                     Observer observer)
+Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const Identity& identity,
+                     const std::string& output, Observer observer)
     : run_(run),
       watch_(watch),
       output_(output),
       config_(identity.config),
       observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
-      collect_(by_refinement(config)
-                   ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
-                   : std::function<void(const StepRecord&)>()),
-      file_(output, header_of(run.mesh, run.scene.formulation, run.scene, with_steps_hash(identity, config)),
-            [this, &run, &watch, good = within_tolerance(config)](const StepRecord& step, const EarlierRun& earlier) {
-              if (!good(step, earlier)) return false;
-              if (collect_) collect_(step);
-              watch.kept(step);
-              run.replay(step);
-              stress_.kept(step);
-              if (observer_.kept) observer_.kept(step);
-              return true;
-            }),
+      collect_(collector(config)),
+      file_(
+          output,
+          header_of(run.mesh, run.scene.formulation, run.scene, with_steps_hash(identity, config)),
+          with_replay(within_tolerance(config))),
       resumed_(file_.resumed()) {
   if (resumed_) run_.resume(*resumed_, file_.before_resumed());
+}
+
+std::function<void(const StepRecord&)> Recording::collector(const SolveConfig& config) {
+  if (!by_refinement(config)) return {};
+  return [this, config](const StepRecord& step) {
+    forces_.push_back(step_forces(config, run_.scene, run_.mesh, step));
+  };
+}
+
+SolutionWriter::StillGood Recording::with_replay(SolutionWriter::StillGood good) {
+  return [this, good = std::move(good)](const StepRecord& step, const EarlierRun& earlier) {
+    if (!good(step, earlier)) return false;
+    if (collect_) collect_(step);
+    watch_.kept(step);
+    run_.replay(step);
+    stress_.kept(step);
+    if (observer_.kept) observer_.kept(step);
+    return true;
+  };
 }
 
 bool Recording::with_other_settings() const {

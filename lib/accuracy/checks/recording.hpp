@@ -48,6 +48,10 @@ class Recording {
   }
 
  private:
+  // Collects the forces of a step where the config asks for an estimate by refinement, else empty.
+  std::function<void(const StepRecord&)> collector(const SolveConfig& config);
+  // As `good`; a step that is kept goes through all that looks at steps, as if it were made now.
+  SolutionWriter::StillGood with_replay(SolutionWriter::StillGood good);
   bool with_other_settings() const;  // the steps that it continues were made
   RunEnd along_the_path(Progress& progress);
   void need_the_end(const RunEnd& end, const std::string& loose) const;

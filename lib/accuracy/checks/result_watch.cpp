@@ -52,8 +52,10 @@ void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
     raised_ = report.tolerance;
     raised_at_ = t;
   }
-  if (may_lock_)
-    if (const Locking now = locking(body_, u); now.energy > locking_.energy) locking_ = now;
+  if (may_lock_) {
+    const Locking now = locking(body_, u);
+    if (now.energy > locking_.energy) locking_ = now;
+  }
   if (has_chains_) look_at_chains(u);
   if (body_.viscous()) look_at_branches();
 }

@@ -200,7 +200,7 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
                  [&](const Item& item) { return quantity(item).name.starts_with(begins); });
   };
   if constexpr (std::is_same_v<Item, ErrorEstimate>) {
-    std::ranges::copy_if(all, std::back_inserter(found), [](const auto& e) { return e.asked; });
+    std::ranges::copy_if(all, std::back_inserter(found), &ErrorEstimate::asked);
     if (!found.empty()) return found;
   }
   for (const char* begins : {"travel_", "force_", "force", "reaction_"})

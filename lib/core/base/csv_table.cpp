@@ -344,7 +344,8 @@ std::optional<double> CsvTable::number(const CsvCell& cell) const {
   if (decimal == DecimalSign::point) return csv_number(cell.text);
   if (cell.text.find('.') != std::string::npos) return std::nullopt;
   std::string text = cell.text;
-  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) text[comma] = '.';
   return csv_number(text);
 }
 

@@ -46,7 +46,8 @@ class Descriptor {
 std::string unreadable_reason(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return reason_of_errno();
-  if (const std::string reason = reason_of_kind(status.st_mode); !reason.empty()) return reason;
+  const std::string reason = reason_of_kind(status.st_mode);
+  if (!reason.empty()) return reason;
   if (access(path.c_str(), R_OK) != 0) return reason_of_errno();
   return "";
 }
@@ -55,7 +56,8 @@ std::string read_file(const std::string& path, const std::string& expected) {
   const auto refuse = [&](const std::string& reason) {
     throw Failure(Exit::input, Error{{path}, "", reason, expected, ""});
   };
-  if (const std::string reason = unreadable_reason(path); !reason.empty()) refuse(reason);
+  const std::string unreadable = unreadable_reason(path);
+  if (!unreadable.empty()) refuse(unreadable);
 
   // The path may lead to something else by now: O_NONBLOCK keeps a pipe from waiting, and the
   // kind is looked at once more on what was opened.
@@ -63,7 +65,8 @@ std::string read_file(const std::string& path, const std::string& expected) {
   if (file.number < 0) refuse(reason_of_errno());
   struct stat status {};
   if (fstat(file.number, &status) != 0) refuse(reason_of_errno());
-  if (const std::string reason = reason_of_kind(status.st_mode); !reason.empty()) refuse(reason);
+  const std::string kind = reason_of_kind(status.st_mode);
+  if (!kind.empty()) refuse(kind);
 
   const double most_bytes = 0.5 * free_memory();
   const auto check_size = [&](double bytes) {

@@ -257,7 +257,7 @@ std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path
     for (const Tree::Entry* e : entries) keys.push_back(e->key);
     return list_words(keys);
   };
-  const Entries later = those([](const Tree& t) { return t.set_later; });
+  const Entries later = those(std::mem_fn(&Tree::set_later));
   if (!later.empty() && later.size() < tree.map.size()) {
     const Entries there = those([](const Tree& t) { return !t.set_later; });
     f.say(later[0]->value.place, path, fmt::format("{} added to {}", words(later), words(there)),

@@ -30,8 +30,7 @@ std::vector<MaterialParameter> chosen(Material& material, const std::vector<Free
       list.push_back({p.key, p.name, p.unit, {}, nullptr});
       continue;
     }
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    const auto found = std::ranges::find(all, p.key, &MaterialParameter::key);
     if (found == all.end()) throw std::logic_error("the law has no parameter " + p.key);
     list.push_back(*found);
   }

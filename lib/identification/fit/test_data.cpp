@@ -491,8 +491,7 @@ std::vector<RowGroup> groups_of_rows(const Reading& in, const std::optional<std:
     std::string name;
     if (in.several_blocks()) name = block_name(in.table, row.block);
     if (split) append(name, "_", row.cells[*split].text);
-    const auto found = std::find_if(groups.begin(), groups.end(),
-                                    [&](const RowGroup& group) { return group.name == name; });
+    const auto found = std::ranges::find(groups, name, &RowGroup::name);
     if (found != groups.end()) {
       found->rows.push_back(&row);
     } else {

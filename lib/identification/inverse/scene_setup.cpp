@@ -233,8 +233,7 @@ void SceneTests::add_numbers() {
         with_friction_ = true;
       } else {
         one.measured = number;
-        const auto test = std::find_if(tests_.begin(), tests_.end(),
-                                       [&](const SceneTest& t) { return t.data == number->data; });
+        const auto test = std::ranges::find(tests_, number->data, &SceneTest::data);
         const bool force = std::any_of(test->curves.begin(), test->curves.end(),
                                        [](const SceneCurve& c) { return c.unit == "N"; });
         if (number->of != SceneNumber::Of::force_offset && test->over.key != "u_ind")

@@ -181,8 +181,7 @@ std::vector<FreeParameter> free_parameters(const FitConfig& config) {
   std::vector<FreeParameter> free;
   for (const FitParameter& p : config.parameters) {
     FreeParameter one{p.key, p.start.value_or(0), p.lower.value_or(0), p.upper.value_or(0)};
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == p.key; });
+    const auto found = std::ranges::find(known, p.key, &MaterialParameter::key);
     if (const auto number = scene_number(config, p.key)) one = free_number(config, p, *number);
     if (found != known.end()) {
       if (!p.start) one.start = *found->value;
@@ -231,7 +230,7 @@ Complaint unknown(const std::string& at, const std::string& key,
 void complain(const std::string& at, const Tie& tie, const Tie& whole, const FitConfig& config,
               const std::vector<MaterialParameter>& known, std::vector<Complaint>& all) {
   const auto number = [&](const std::string& key) {
-    return std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == key; });
+    return std::ranges::find(known, key, &MaterialParameter::key);
   };
   const auto tied = number(tie.key);
   const auto of = number(tie.of);
@@ -252,8 +251,7 @@ void complain(const std::string& at, const Tie& tie, const Tie& whole, const Fit
         {at + "follows",
          fmt::format("{} in {} tied to {} in {}", tie.key, tied->unit, tie.of, of->unit),
          "numbers of one unit", ""});
-  const auto root = std::find_if(free.begin(), free.end(),
-                                 [&](const FreeParameter& p) { return p.key == whole.of; });
+  const auto root = std::ranges::find(free, whole.of, &FreeParameter::key);
   const auto source = number(whole.of);
   if (source == known.end()) return;
   double from = *source->value;
@@ -460,8 +458,7 @@ FitProblem fit_problem(const FitConfig& config) {
   const std::vector<MaterialParameter> known = parameters(law);
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     FreeParameter& free = problem.free[i];
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.key == free.key; });
+    const auto found = std::ranges::find(known, free.key, &MaterialParameter::key);
     if (found != known.end() && found->unit == std::string(unit::MPa) &&
         !config.parameters[i].upper && free.upper > 0)
       free.upper = std::max(free.upper, std::min(secant, found->range.high));

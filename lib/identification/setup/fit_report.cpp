@@ -92,8 +92,7 @@ FitRecord fit_record(const FitProblem& problem, const FitResult& fit) {
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     const FreeParameter& p = problem.free[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const auto known =
-        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == p.key; });
+    const auto known = std::ranges::find(all, p.key, &MaterialParameter::key);
     record.parameters.push_back({p.is_material_number() ? known->name : p.name,
                                  p.is_material_number() ? known->unit : p.unit, fit.best.p[k],
                                  p.lower, p.upper, std::sqrt(fit.covariance(k, k))});

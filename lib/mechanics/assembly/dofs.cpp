@@ -26,8 +26,7 @@ DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vec
                 [&](const Prescribed& p) { return hanging_at(hanging, p.dof / 3) != nullptr; });
   Dofs& dofs = result.dofs;
   dofs.n = 3 * n_nodes;
-  std::sort(prescribed.begin(), prescribed.end(),
-            [](const auto& a, const auto& b) { return a.dof < b.dof; });
+  std::ranges::sort(prescribed, {}, &Prescribed::dof);
   for (const Prescribed& p : prescribed) {
     if (!dofs.prescribed.empty() && dofs.prescribed.back().dof == p.dof) {
       const Prescribed& other = dofs.prescribed.back();

@@ -63,7 +63,9 @@ void law(const Material& material, const P* F, const P& J, const PacketFibre* fi
   const SpatialState state(F, J, [&](std::size_t k, int i) { return fibres[k].a[i]; });
   P dW{}, ddW{}, sum[6];
   matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) {
-    out.W += e.W, dW += factors.matrix(e.dW), ddW += factors.matrix(e.ddW);
+    out.W += e.W;
+    dW += factors.matrix(e.dW);
+    ddW += factors.matrix(e.ddW);
   });
   for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * state.b[p];
   out.stiffness[0] = 4.0 * ddW;
@@ -322,7 +324,8 @@ PacketElement::PacketElement(int n_nodes, int n_pressures)
 
 PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
   PacketGeometry out;
-  out.n_nodes = geometry[0]->n_nodes(), out.n_gauss = geometry[0]->n_gauss();
+  out.n_nodes = geometry[0]->n_nodes();
+  out.n_gauss = geometry[0]->n_gauss();
   out.dN_dX.resize(out.n_gauss * 3 * out.n_nodes), out.w.resize(out.n_gauss);
   out.mode.resize(n_modes * geometry[0]->mode.size());
   for (int l = 0; l < P::lanes; ++l) {

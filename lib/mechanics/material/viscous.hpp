@@ -77,7 +77,10 @@ struct Amplified {
 };
 void amplify(Amplified& amplified, BranchOf of, double follow);
 inline Amplified only(BranchOf of) {
-  return {of == BranchOf::fibres ? 0. : 1., of == BranchOf::matrix ? 0. : 1.};
+  Amplified result{1, 1};
+  if (of == BranchOf::fibres) result.matrix = 0;
+  if (of == BranchOf::matrix) result.fibres = 0;
+  return result;
 }
 
 }  // namespace langer

@@ -72,8 +72,7 @@ const MatX* MovingNodes::weights(int e) const {
 }
 
 const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node) {
-  const auto at = std::lower_bound(hanging.begin(), hanging.end(), node,
-                                   [](const HangingNode& h, int n) { return h.node < n; });
+  const auto at = std::ranges::lower_bound(hanging, node, {}, &HangingNode::node);
   if (at != hanging.end() && at->node == node) return &*at;
   return nullptr;
 }
