@@ -13,7 +13,13 @@ namespace langer {
 namespace {
 
 constexpr double tiny = 1e-9;  // [mm] what positions are known to
-constexpr double share_meaningless = 0.5, share_warned = 0.1, node_refused = 0.01;
+
+// Depths between nodes as a share of the travel: from `share_meaningless` on the force says nothing
+// of the body, from `share_warned` on a warning says so. A node outside the set may be inside the
+// indenter by `node_refused` of the travel before the run stops.
+constexpr double share_meaningless = 0.5;
+constexpr double share_warned = 0.1;
+constexpr double node_refused = 0.01;
 
 std::string text(const Vec3& X) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", X[0], X[1], X[2]);
@@ -21,6 +27,8 @@ std::string text(const Vec3& X) {
 
 }  // namespace
 
+// An indenter must start outside of the body. All three ways to start inside are refused: the whole
+// indenter inside, a node inside the indenter, a facet inside it between its nodes.
 ContactWatch::ContactWatch(const Mesh& mesh, const Scene& scene, Where where)
     : mesh_(mesh),
       scene_(scene),
@@ -54,12 +62,16 @@ void ContactWatch::refuse(const std::string& key, std::string found, std::string
                 Error{where_(key), key, std::move(found), std::move(expected), std::move(hint)});
 }
 
+// How deep the body is inside the indenter between nodes, as a share of the depth to which the
+// indenter is pressed.
 double ContactWatch::Found::share() const {
   const double depth = at_force.facet.depth;
   if (depth > tiny) return depth / std::max(at_force.pressed, depth);
   return 0;
 }
 
+// States in which the force is not that of the scene: the surface does not stop the indenter, or
+// the mesh cannot show its shape.
 void ContactWatch::refuse_mid_path(const RigidContact& contact, const SurfaceLook& look,
                                    double t) const {
   const std::string key = "contacts." + contact.name;
@@ -116,6 +128,8 @@ void ContactWatch::refuse_jump(const RigidContact& contact, const std::vector<Ve
   }
 }
 
+// Keeps the worst of all steps, the nearest approach, and the state with the largest force, of
+// which the warnings at the end speak.
 void ContactWatch::keep(std::size_t contact, const SurfaceLook& look, double t, double force) {
   Found& f = found_[contact];
   if (look.node.depth > std::max(f.node.depth, tiny)) f.node = look.node;
@@ -132,6 +146,8 @@ void ContactWatch::keep(std::size_t contact, const SurfaceLook& look, double t, 
   }
 }
 
+// Looks at each indenter of an accepted step, and adds the force of each one where there are
+// several, and the depth between nodes.
 void ContactWatch::look(StepRecord& record) {
   double entry = 0;
   for (std::size_t k = 0; k < scene_.contacts.size(); ++k) {
@@ -175,6 +191,7 @@ void ContactWatch::kept(const StepRecord& step) {
   adds_ = step.scalars.count("penetration_between_nodes") > 0;
 }
 
+// A force of 0 N because the indenter passed between nodes is no result.
 void ContactWatch::finish() const {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];

@@ -20,7 +20,8 @@ namespace {
 constexpr double slack = 1 + 1e-6;   // a run to the end of the test is inside
 constexpr std::size_t refined = 24;  // points looked at exactly
 
-// of the invariants over their range: above 1 outside
+// How far a point is deformed, over how far the tests were that the material was fitted to: the
+// largest ratio of the invariants minus their values at rest. Above 1 the point is outside.
 double excess(const FittedRange& range, const Mat3& F, std::span<const Vec3> a) {
   double most = (F.squaredNorm() - 3) / std::max(range.I1_bar - 3, 1e-12);
   for (std::size_t k = 0; k < a.size() && k < range.I4_bar.size(); ++k)
@@ -55,6 +56,7 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 
 }  // namespace
 
+// The range of the tests, which a fitted material carries. Materials that were typed have none.
 StudyRecord study_from(const std::string& material_file) {
   const std::string extension = std::filesystem::path(material_file).extension();
   if (extension == ".yaml" || extension == ".yml") return {};
@@ -63,6 +65,8 @@ StudyRecord study_from(const std::string& material_file) {
   return StudyRecord{};
 }
 
+// Of the symmetric and the antisymmetric movements together; -1 if a tangent is singular and no
+// negative eigenvalue is known.
 int StabilityReport::negative_eigenvalues() const {
   int sum = 0;
   bool singular = false;
@@ -124,6 +128,8 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
   report.signature = signature;
   if (!signs_) signs_ = signature.has_value();
 
+  // Every Gauss point is checked on a coarse grid of directions, eight at a time. The points with
+  // the smallest stiffness are then searched exactly.
   std::vector<Low> lowest;
   double volume = 0;
   PointCheck points;
@@ -144,6 +150,7 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
       double s = -INFINITY;
       if (std::isfinite(points.stiffness[g])) s = points.stiffness[g];
       volume += w;
+      // A point whose acoustic tensor has a negative eigenvalue has lost strong ellipticity.
       if (s < 0) report.lost += w;
       keep_lowest(lowest, {s, e, g, points.F[g]});
       if (a.empty() && !study_.range) continue;
@@ -179,6 +186,8 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
   if (report.stiffness < 0 && report.lost == 0)
     report.lost = body.geometry(report.cell).w[0] / volume;
 
+  // The force that works along the prescribed displacements. Where it falls, the same body under
+  // dead loads would not be stable.
   for (const Prescribed& p : body.dofs().prescribed)
     report.driving_force += reactions[p.dof] * p.rate(state.t);
   const bool straight = std::all_of(body.dofs().prescribed.begin(), body.dofs().prescribed.end(),
@@ -204,12 +213,15 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
   s["volume_change"] = r.volume_change;
   s["unstable_volume"] = r.lost;
-  if (r.fibre_max > 0)
-    s["isochoric_fibre_stretch_min"] = r.fibre_min, s["isochoric_fibre_stretch_max"] = r.fibre_max;
+  if (r.fibre_max > 0) {
+    s["isochoric_fibre_stretch_min"] = r.fibre_min;
+    s["isochoric_fibre_stretch_max"] = r.fibre_max;
+  }
   if (study_.range) s["outside_fit"] = r.outside;
   s["driving_force"] = r.driving_force;
 }
 
+// Neighbouring steps of the same kind are one span of t.
 void StabilityWatch::Spans::add(double t, bool here) {
   if (here && open) of.back()[1] = t;
   if (here && !open) of.push_back({t, t});

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double small_strain = 1e-4;  // of the change along a dual solution
 
+// J F^-T, also where F is singular: its columns are cross products of the columns of F.
 Mat3 cofactor(const Mat3& F) {
   Mat3 cof;
   cof.col(0) = F.col(1).cross(F.col(2));
@@ -35,10 +36,15 @@ struct PointFields {
   double theta = 0;  // J - 1 of the modes
 };
 
+// Energies of the error at a point: in change of shape, and in change of volume [MPa].
 struct PointError {
   double shape = 0, volume = 0;
 };
 
+// Compares the computed fields with smooth ones, which patches of elements give (Zienkiewicz and
+// Zhu 1992). The energy of the difference is a function of the state. Its derivative along a dual
+// solution is the error of the quantity that belongs to this dual solution; it is computed by
+// central differences with a step of `small_strain`.
 class ErrorOfCells {
  public:
   ErrorOfCells(const Body& body, const StepRecord& state, const std::vector<DualSolution>& duals)
@@ -54,6 +60,7 @@ class ErrorOfCells {
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index k = 0; k < fields; ++k)
         u.block<1, 3>(i, 3 * k) = nodal(k)[static_cast<std::size_t>(i)].transpose();
+    // Field 0 is the state, field k + 1 the change along dual solution k. All are fitted at once.
     u_ = patches_.fit_nodal_fields(u);
     std::vector<MatX> p;
     for (int e = 0; e < mesh_.n_cells(); ++e) {
@@ -85,6 +92,7 @@ class ErrorOfCells {
           body_.geometry(e).dN_dX[g]);
       f.smooth_H = f.H;
       const Mat3 smooth = gradients.middleRows<3>(3 * static_cast<Eigen::Index>(k));
+      // In a section only the in-plane part comes from the patches.
       if (mesh_.section)
         f.smooth_H.topLeftCorner<2, 2>() = smooth.topLeftCorner<2, 2>();
       else
@@ -141,6 +149,7 @@ class ErrorOfCells {
                   .cwiseProduct(displacement_gradient(z, geometry.dN_dX[g]))
                   .sum();
         }
+        // The dilatation is averaged over the element, weighted with each pressure mode.
         for (int m = 0; m < n; ++m)
           dt[m] += geometry.w[g] * (m == 0 ? 1 : geometry.mode[g][m]) * J / geometry.V;
       }
@@ -161,7 +170,7 @@ class ErrorOfCells {
     return out;
   }
 
-  // (points, fields)
+  // (points, fields): the pressure at Gauss points, or one value where it is constant in an element
   MatX pressures_of(int e) const {
     const bool one = n_modes_ == 1;
     const auto fields = static_cast<Eigen::Index>(1 + duals_.size());
@@ -181,6 +190,10 @@ class ErrorOfCells {
     return F * tensor(isochoric(body_.material(e), F.transpose() * F, body_.fibres(e), false).S);
   }
 
+  // The energy of the difference between the smooth and the computed fields, at the state that is
+  // eps further along the dual solution. The smooth deformation gets the volume that belongs to the
+  // smooth pressure: a fit of gradients alone would change volumes by more than the material
+  // allows.
   PointError error(int e, const PointFields& s, const PointFields& d, double eps) const {
     const Mat3 H = s.H + eps * d.H;
     const Mat3 smooth_H = s.smooth_H + eps * d.smooth_H;
@@ -209,7 +222,9 @@ class ErrorOfCells {
   std::vector<double> scale_;
 };
 
-// integral lambda* gap dA0 over the facets of one contact
+// The integral of pressure times gap over the facets of one contact, in the undeformed state. It is
+// 0 where contact is exact. Between nodes a body enters the indenter, and the integral is the
+// energy of this error. Pressures are nodal forces over the areas that belong to the nodes.
 class ContactFacets {
  public:
   ContactFacets(const RigidContact& contact, const Mesh& mesh, const StepRecord& state,
@@ -275,6 +290,7 @@ class ContactFacets {
   }
 
  private:
+  // on(facet, nodes, shape functions, area) at each quadrature point of the facets.
   template <class On>
   void each(const On& on) const {
     const ReferenceCell& cell = mesh_.cell();
@@ -328,8 +344,8 @@ EnergyErrors energy_errors(const Scene& scene, const Mesh& mesh, const StepRecor
                                state.contacts.at(scene.contacts[c].name));
     for (std::size_t k = 0; k < duals.size(); ++k)
       facets.change(duals[k], c, cells.step(k), [&](const Facet& facet, double change) {
-        out.along[k].contact += change,
-            out.along[k].of_cell[static_cast<std::size_t>(facet.cell)] += change;
+        out.along[k].contact += change;
+        out.along[k].of_cell[static_cast<std::size_t>(facet.cell)] += change;
       });
   }
   for (auto& d : out.along)

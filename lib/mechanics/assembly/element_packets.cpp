@@ -6,12 +6,15 @@
 
 namespace langer {
 
+// A packet computes eight elements of one body at once, one in each lane of the vector unit. The
+// last packet of a body repeats its last element in the lanes that are left.
 ElementPackets::ElementPackets(const BodyModel& body, Kernel kernel)
     : body_(body), requested_(kernel), kernel_(kernel) {
   choose_kernel();
   make_blocks();
 }
 
+// Some materials have no packet form; then all elements are computed one by one.
 void ElementPackets::choose_kernel() {
   kernel_ = requested_;
   for (const Material& material : body_.materials()) {
@@ -24,6 +27,7 @@ void ElementPackets::update_materials() {
   pack_fibres();
 }
 
+// Blocks of eight elements of one material, and their geometry with a lane for each element.
 void ElementPackets::make_blocks() {
   const Mesh& mesh = body_.mesh();
   std::vector<std::vector<int>> elements_of(std::max<std::size_t>(1, mesh.bodies.size()));
@@ -59,6 +63,7 @@ void ElementPackets::pack_fibres() {
   }
 }
 
+// What the viscous branches add to the stress, which is constant during a step.
 void ElementPackets::pack_history(const ViscousState& viscous) {
   if (!viscous.present() || kernel_ != Kernel::packets) return;
   history_.resize(blocks_.size());
@@ -77,6 +82,8 @@ void ElementPackets::pack_history(const ViscousState& viscous) {
   }
 }
 
+// The displacements of a block. Elements with hanging nodes get those of their own nodes, which
+// follow from the nodes around.
 void ElementPackets::load(const Block& block, const VecX& u, Packet* q) const {
   const int n_nodes = body_.n_nodes();
   for (int l = 0; l < Packet::lanes; ++l) {
@@ -165,6 +172,7 @@ void ElementPackets::evaluate_one_by_one(const Block& block, const VecX& u,
   for (int l = block.n; l < Packet::lanes; ++l) out.J_min.set(l, out.J_min[0]);
 }
 
+// The smallest volume ratio at any Gauss point: a line search asks before it computes stresses.
 double ElementPackets::smallest_J(const VecX& u) const {
   double J_min = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

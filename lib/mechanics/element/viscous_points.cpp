@@ -14,6 +14,9 @@ bool ViscousPoints::needed(const std::vector<Material>& materials) {
                      [](const Material& m) { return is_viscous(m); });
 }
 
+// Branches of a material that follow the same terms of its energy are one group: they share the
+// stress of these terms. Bodies may have different numbers of branches, so each element has its own
+// first place in the arrays.
 ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::vector<int>& body,
                              int n_cells, int n_gauss)
     : body_(materials.size() > 1 ? body : std::vector<int>{}), n_gauss_(n_gauss) {
@@ -39,10 +42,13 @@ ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::
   trial_ = stress_;
   branch_.assign(6 * next.branch, 0);
   work_.assign(next.point, 0);
-  error_.assign(static_cast<std::size_t>(n_cells), 0), size_ = error_;
+  error_.assign(static_cast<std::size_t>(n_cells), 0);
+  size_ = error_;
   begin(0);
 }
 
+// The factors of a step depend on its length alone: what a branch keeps of its stress, how it
+// follows the new elastic stress, and how large the error of the step is.
 void ViscousPoints::begin(double seconds) {
   for (Law& law : laws_) {
     law.steps.clear();
@@ -56,6 +62,8 @@ void ViscousPoints::begin(double seconds) {
   }
 }
 
+// What the branches add to the stress whatever the new state is (Simo 1987):
+//   H = sum_i keep_i Q_i - follow_i S_i,   Q_i and S_i at the beginning of the step
 Vec6 ViscousPoints::H(int e, int g) const {
   const Law& law = law_of(e);
   const First& first = first_[static_cast<std::size_t>(e)];
@@ -75,6 +83,8 @@ CellMemory ViscousPoints::memory(int e) const {
   return memory;
 }
 
+// The elastic stresses at the end of a trial step, and the squares of the step's error and of the
+// stress, integrated over the element.
 void ViscousPoints::end(int e, const Material& material, const ElementGeometry& geometry,
                         std::span<const Vec3> a, const ElementNodes& u) {
   if (!has(e)) return;
@@ -98,9 +108,11 @@ void ViscousPoints::end(int e, const Material& material, const ElementGeometry& 
     error += geometry.w[g] * here_error * here_error;
     size += geometry.w[g] * here_size * here_size;
   }
-  error_[static_cast<std::size_t>(e)] = error, size_[static_cast<std::size_t>(e)] = size;
+  error_[static_cast<std::size_t>(e)] = error;
+  size_[static_cast<std::size_t>(e)] = size;
 }
 
+// Relative to the largest stress so far, so that a body at rest has no error.
 double ViscousPoints::error() const {
   const double size = std::max(largest_, std::accumulate(size_.begin(), size_.end(), 0.));
   if (size > 0) {
@@ -109,6 +121,8 @@ double ViscousPoints::error() const {
   return 0;
 }
 
+// The branches follow to the end of the step. Their work is the mean stress of the step times the
+// change of strain.
 void ViscousPoints::accept(int e, const ElementGeometry& geometry, const ElementNodes& u0,
                            const ElementNodes& u) {
   if (!has(e)) return;
@@ -142,6 +156,7 @@ void ViscousPoints::accepted() {
   largest_ = std::max(largest_, std::accumulate(size_.begin(), size_.end(), 0.));
 }
 
+// The sum of all branches at a Gauss point [MPa].
 Vec6 ViscousPoints::stress(int e, int g) const {
   const std::size_t n = law_of(e).branches.size();
   Vec6 sum = Vec6::Zero();

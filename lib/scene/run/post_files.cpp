@@ -50,6 +50,8 @@ struct StressFields {
 
 }  // namespace
 
+// Stresses of viscous branches depend on all states before. Rows are therefore followed from the
+// first one; a row that lies before the last one starts again.
 void BranchRows::go_to(int row) {
   if (!body_.viscous()) return;
   if (!path_ || row < row_) {
@@ -74,6 +76,7 @@ Formulation formulation_of(const SolutionHeader& header, const std::string& path
                                    ""});
 }
 
+// What a table or picture shows of a step. Statuses of contact: 1 sticks, 2 slips.
 StepState state_of(const StepRecord& record) {
   StepState state;
   state.t = record.t;
@@ -102,6 +105,8 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
   const GaussValues gauss = gauss_values(body, record.u);
   SnapshotFields out;
 
+  // Fields at nodes: stresses are averages of the elements around a node.
+
   Field u = field("u", "mm", 3, n);
   Field reaction = field("reaction", "N", 3, n);
   StressFields at_nodes(n, body.n_families());
@@ -114,6 +119,7 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
   at_nodes.move_to(out.points);
   add_contact_fields(out.points, contacts, header, record, row);
 
+  // Fields in elements: means over the Gauss points, and the fibres before and after deformation.
   StressFields means(n_cells, body.n_families());
   std::vector<Field> before, after;
   for (int k = 0; k < body.n_families(); ++k) {
@@ -138,6 +144,8 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
   return out;
 }
 
+// A picture shows one quantity at nodes. Some follow from displacements or from contact alone; only
+// the others need stresses.
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field,
                                    int family, StressAt at) {
   std::vector<double> values;
@@ -156,6 +164,8 @@ std::vector<double> picture_values(const Body& body, const StepState& state, Qua
   return values;
 }
 
+// The indenters of a solution, from the config that it carries. Surfaces of scanned indenters are
+// taken from the solution, so that their files need not be there any more.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   std::vector<RigidContact> indenters;
   if (header.contact_nodes.empty()) return indenters;
@@ -180,6 +190,7 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   return indenters;
 }
 
+// A force-controlled indenter has no prescribed motion; it is where the steps found it.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution) {
   for (RigidContact& indenter : indenters) {
     if (!indenter.control) continue;
@@ -192,6 +203,8 @@ void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& 
   }
 }
 
+// Work is integrated over time. It needs the times at which a load changes its rate, so that no
+// interval of the quadrature contains one.
 EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
                        const SolutionHeader& header) {
   std::vector<double> kinks;
@@ -226,6 +239,8 @@ Shown shown_of(const Mesh& mesh) {
   return {box.middle(), box.size().norm()};
 }
 
+// An indenter can be wider than the picture. Its outline is therefore drawn around the part that is
+// shown, seen from the indenter, and then moved with it.
 Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
   const Vec3 u = indenter_displacement(indenter, t);
   Outline moved = outline(indenter.shape, {shown.middle - u, shown.size, shown.parts});
@@ -233,6 +248,7 @@ Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
   return moved;
 }
 
+// Tractions and pressures of a solution, from the config that it carries; none if it has none.
 Loads loads_of(const SolutionHeader& header) {
   try {
     const auto solve =
@@ -252,6 +268,8 @@ Loads loads_of(const SolutionHeader& header) {
   }
 }
 
+// What the balance of energy needs of a step: displacements, forces at supports, at contacts and of
+// loads, and the energies that the solver recorded.
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
                                const Loads& loads) {
   EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
