@@ -56,6 +56,8 @@ std::map<std::array<double, 3>, int> nodes_by_place(const Mesh& mesh) {
   return out;
 }
 
+// A quantity whose error is wanted, and the load or displacement of size 1 whose answer is its dual
+// solution.
 struct Asked {
   std::size_t quantity;
   ParameterChange by;           // of the part
@@ -64,6 +66,8 @@ struct Asked {
   bool of_set = false;
 };
 
+// Finds the dual problem of each quantity. A force is the derivative of the energy by the motion of
+// the indenter, a reaction by that of the set, and a displacement answers a force of size 1.
 class Questions {
  public:
   Questions(const Run& run, const StepRecord& last)
@@ -98,6 +102,8 @@ class Questions {
     return asked;
   }
 
+  // The set moves by 1 along its reaction. Nodes that symmetry removed are not moved; the caller
+  // corrects for them.
   std::optional<Asked> of_set(Asked asked, const std::string& set) const {
     Vec3 reaction = Vec3::Zero();
     for (int n : run_.mesh.node_sets.at(set))
@@ -118,6 +124,8 @@ class Questions {
     return asked;
   }
 
+  // A force of size 1 against the displacement; at a hanging node it is shared by the four nodes
+  // around it.
   std::optional<Asked> of_point(Asked asked, const std::string& point) const {
     const int n = run_.mesh.node_sets.at(point)[0];
     const Vec3 u = last_.u[static_cast<std::size_t>(n)];
@@ -171,6 +179,7 @@ DualSolution whole(const Run& run, const StepRecord& last, const Asked& asked,
   return out;
 }
 
+// Patches need elements that lie inside: a body of one layer must be refined first.
 PathErrors in_one_layer(const SolveConfig& config, const Mesh& mesh) {
   if (!asks_for_accuracy(config)) throw not_known(across_one_cell);
   return to_be_cut_everywhere(mesh, across_one_cell);
@@ -204,6 +213,9 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   const EnergyErrors errors = energy_errors(run.scene, run.mesh, last, duals);
   if (errors.alone > most_alone) return in_one_layer(config, run.mesh);
   PathErrors out;
+
+  // The error of each quantity is the sum over the elements. How far it may be off is a share of
+  // the sum without signs; the shares were measured on known solutions (docs/study_estimates.md).
   const bool quadratic = run.mesh.cell().second_order();
   const std::vector<StepForces> end{step_forces(config, run.scene, run.mesh, last)};
   std::vector<Valued> judged;

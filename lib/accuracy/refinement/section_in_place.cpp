@@ -30,6 +30,7 @@ bool is_round(const SetConfig& set, const Vec3& axis) {
          std::hypot(cylinder->through[0] - axis[0], cylinder->through[2] - axis[2]) == 0;
 }
 
+// All sets that supports, loads and contacts name are the same around the axis.
 bool has_round_sets(const SolveConfig& config, const Vec3& axis) {
   const auto round = [&](const std::string& name) {
     const auto found = config.mesh->sets.find(name);
@@ -65,6 +66,7 @@ bool has_direction(const std::optional<Material>& material) {
                                  [](const Fibre& f) { return has_direction(f); });
 }
 
+// No fibres that point somewhere, in any of the materials.
 bool is_isotropic(const SolveConfig& config, const std::optional<Material>& material) {
   return !has_direction(material) && !has_direction(config.material) &&
          std::none_of(config.materials.begin(), config.materials.end(),
@@ -100,12 +102,17 @@ void move_to_axis(SolveConfig& config, const Vec3& axis) {
 
 }  // namespace
 
+// Discs that lie inside the block, that have its area, and that lie around it. The force of the
+// block lies between those of the first and the last.
 RadiiOfBlock radii_of(const IndentedBlock& block) {
   const double a = block.size[0];
   const double b = block.size[2];
   return {0.5 * std::min(a, b), std::sqrt(a * b / std::numbers::pi), 0.5 * std::hypot(a, b)};
 }
 
+// The same scene on a section of a disc, or nothing where the scene is not the same around the
+// axis: the indenter off the middle, fibres, supports that hold one direction of the plane, sets at
+// sides.
 std::optional<SolveConfig> on_a_disc(const SolveConfig& config,
                                      const std::optional<Material>& material, double radius) {
   const auto* block = config.mesh ? std::get_if<IndentedBlock>(&config.mesh->geometry) : nullptr;
@@ -152,6 +159,8 @@ SectionInPlace::SectionInPlace(const Voice& voice, const SolveConfig& config,
         "the scene is the same around an axis but for its sides: reduce: auto solves a section where they do not matter");
 }
 
+// The section is used where the sides of the block change the force by less than the accuracy that
+// the user wants. Three sections show how much they change it.
 void SectionInPlace::decide(const std::optional<Material>& material, const Where& where, bool dry) {
   SolveConfig chosen = asked_;
   accuracy_ = choose_accuracy(chosen, material);
@@ -218,6 +227,8 @@ double SectionInPlace::percent(const std::vector<ErrorEstimate>& errors) const {
   return most;
 }
 
+// Whether the section is accurate enough, with the influence of the sides added to its error. If
+// not, a finer section follows, or the block where none is left.
 bool SectionInPlace::accurate(const std::vector<ErrorEstimate>& errors) {
   if (!section_ || !accuracy_ || (errors.empty() && section_->estimate != EstimateBy::refinement))
     return true;

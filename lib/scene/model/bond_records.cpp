@@ -6,7 +6,7 @@ namespace langer {
 
 // Adds the adhesive forces, the damage of each bond and the energies to a record. Adhesion pulls at
 // the indenter too: its resultant belongs to the recorded force.
-void tell_bonds(const Statics& statics, StepRecord& record) {
+void record_bonds(const Statics& statics, StepRecord& record) {
   const Bonds& bonds = statics.bonds();
   const BodyState& state = statics.accepted();
   double bonded = 0;
@@ -46,7 +46,7 @@ BondEnergy bond_energies(const StepRecord& step) {
           of.at("energy") + of.at("adhesion_stored")};
 }
 
-// The inverse of tell_bonds: the bonds of a recorded state, from which a run continues.
+// The inverse of record_bonds: the bonds of a recorded state, from which a run continues.
 void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts,
                 BodyState& state) {
   state.in_bonds = bond_energies(step);

@@ -7,7 +7,7 @@
 namespace langer {
 
 // Adds what bonds bear to forces that the record has of the contact law alone.
-void tell_bonds(const Statics& statics, StepRecord& record);
+void record_bonds(const Statics& statics, StepRecord& record);
 
 Bond bond_of(const ContactRecord& contact, std::size_t candidate);
 BondEnergy bond_energies(const StepRecord& step);

@@ -14,6 +14,7 @@ namespace langer {
 
 namespace {
 
+// A key as a part of a column's name: "fibres[0].c1" becomes "fibres_0_c1".
 std::string name_of(const std::string& key) {
   std::string name;
   for (char c : key)
@@ -45,6 +46,7 @@ std::vector<int> followers(const SolveConfig& config, const Mesh& mesh, bool ang
   return bodies;
 }
 
+// Whether the directions of a body come from a field and not from its angles.
 bool has_field(const SolveConfig& config, const std::string& body) {
   const auto own = config.materials.find(body);
   if (own == config.materials.end()) return config.fibre_field.has_value();
@@ -52,6 +54,7 @@ bool has_field(const SolveConfig& config, const std::string& body) {
   return own->second.fibre_field.has_value() || (follows && config.fibre_field.has_value());
 }
 
+// The number of the family whose angle the key means; -1 where it means no angle.
 int family_of(const std::string& key) {
   const auto rest = behind(key, "fibres[");
   if (rest && rest->ends_with("].alpha") && rest->find('.') == rest->rfind('.')) {
@@ -66,6 +69,7 @@ double& number(Material& material, const std::string& key) {
   throw Failure(Exit::bug, Error{{}, key, "no number of the law", "one", ""});
 }
 
+// Directions of one family in some bodies, turned in the plane of the skin.
 Directions turned(const Directions& directions, const Mesh& mesh, const std::vector<int>& bodies,
                   int family, double by_deg) {
   Directions out(directions.from_field());
@@ -90,6 +94,7 @@ Directions turned(const Directions& directions, const Mesh& mesh, const std::vec
   return out;
 }
 
+// The scale of a material: step sizes of numbers that are 0 follow it [MPa].
 double largest_modulus(Material material) {
   double largest = 0;
   for (const MaterialParameter& p : parameters(material))
@@ -111,6 +116,8 @@ SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, co
   }
 }
 
+// Finds the number that a key means: friction of a contact, a number of the material at the top, or
+// of one body. Everything that cannot be differentiated is refused with the reason.
 void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh,
                            const Scene& scene, const Error& refused) {
   const auto refuse = [&](std::string found, std::string expected, std::string hint = "") {
@@ -184,6 +191,7 @@ bool SceneParameters::turns_fibres() const {
   return std::any_of(of_.begin(), of_.end(), [](const Of& of) { return of.family >= 0; });
 }
 
+// Step of finite differences. Energies are linear in moduli, so any step is exact for them.
 double SceneParameters::step(std::size_t i) const {
   if (of_[i].family >= 0) return 1e-3;  // degrees
   if (of_[i].linear) return of_[i].modulus;
@@ -202,6 +210,8 @@ SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& me
   return laws;
 }
 
+// All numbers changed at once, each by another share. A symmetry that this scene has does not
+// depend on the values, so derivatives have it as well.
 Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const {
   Scene other = scene;
   for (std::size_t i = 0; i < list_.size(); ++i) {

@@ -20,6 +20,7 @@ namespace langer {
 
 namespace {
 
+// A symmetry by its name and by the signs that it gives to x, y and z about the centre.
 struct Operation {
   const char* name;
   Vec3 signs;
@@ -27,6 +28,8 @@ struct Operation {
 const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}},
     half_turn{"half turn about y", {-1, 1, -1}};
 
+// The groups that are tried for a choice, each by its generators: the first that the scene has is
+// used, so larger groups come first.
 std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
   switch (wanted) {
     case SymmetryChoice::none:
@@ -141,6 +144,8 @@ std::optional<ReducedScene> ReducedScene::find(
                       "symmetry: auto takes what there is"});
 }
 
+// The part of the scene that is solved: one element and one node of each set of images, with the
+// supports, loads and contacts that act there.
 void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
                              const std::vector<Symmetry>& generators,
                              const std::vector<std::vector<int>>& contacts) {
@@ -183,6 +188,8 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
   });
 }
 
+// A support holds the node that is kept. Directions in which symmetry allows no movement need no
+// support.
 void ReducedScene::take_supports(const Scene& scene) {
   const Quotient& q = quotient_;
   std::vector<Prescribed> prescribed;
@@ -198,6 +205,8 @@ void ReducedScene::take_supports(const Scene& scene) {
   scene_.dofs = number_dofs(q.mesh.n_nodes(), std::move(prescribed), q.tie, q.mesh.hanging).dofs;
 }
 
+// Movements that change their sign in the image, one numbering for each kind. The stability of the
+// whole body needs them: a body may buckle into a shape that is not symmetric.
 std::vector<Dofs> ReducedScene::symmetry_breaking_dofs() const {
   std::vector<Prescribed> held;
   for (int dof : held_) held.push_back({dof, 0});
@@ -223,6 +232,8 @@ void ReducedScene::take_loads(const Scene& scene) {
   }
 }
 
+// First the candidates that are kept, then for each candidate of the whole body the kept one whose
+// image it is.
 void ReducedScene::take_contacts(const Scene& scene,
                                  const std::function<Touch(int, int)>& stands_for) {
   contacts_ = scene.contacts;
@@ -280,6 +291,8 @@ void ReducedScene::find_turned_families(const Mesh& mesh, const Scene& scene,
   }
 }
 
+// A section is a part, too: it has one element through its thickness or angle, whose nodes behind
+// follow those in front.
 ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
   ReducedScene r;
   r.words_ = section_words(mesh);
@@ -312,6 +325,8 @@ ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
   return r;
 }
 
+// The step of the whole body. Displacements and forces are turned to the place of the image; a
+// force is divided among the images, since the part carries those of all of them.
 StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   StepRecord record = reduced;
   record.u.clear();
@@ -331,7 +346,7 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
     values.clear();
     for (int cell : quotient_.cell_image) values.push_back(kept[cell]);
   }
-  tell_fibres(reduced, record);
+  update_turned_families(reduced, record);
   expand_contacts(reduced, record);
   if (const auto found = record.scalars.find("weakest_cell");
       found != record.scalars.end() && found->second >= 0)
@@ -339,6 +354,7 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   return record;
 }
 
+// Contact forces of the whole body, node by node, and their sum on each indenter.
 void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record) const {
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
   if (!contacts_.empty()) {
@@ -375,7 +391,9 @@ void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record
   }
 }
 
-void ReducedScene::tell_fibres(const StepRecord& reduced, StepRecord& record) const {
+// The element that is kept has its families in another order than its image: the mean of I4_bar is
+// computed again with the direction that the first family of the image has.
+void ReducedScene::update_turned_families(const StepRecord& reduced, StepRecord& record) const {
   const auto I4_bar = record.cell_fields.find("I4_bar");
   if (I4_bar == record.cell_fields.end()) return;
   const Mesh& mesh = quotient_.mesh;
@@ -393,6 +411,7 @@ void ReducedScene::tell_fibres(const StepRecord& reduced, StepRecord& record) co
   }
 }
 
+// The state of the part from a recorded step, with which a stopped run continues.
 BodyState ReducedScene::reduced(const StepRecord& whole) const {
   BodyState state;
   state.t = whole.t;

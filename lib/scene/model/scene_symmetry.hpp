@@ -75,7 +75,7 @@ class ReducedScene {
   void find_turned_families(const Mesh& mesh, const Scene& scene,
                             const std::vector<Symmetry>& group);
   void expand_contacts(const StepRecord& reduced, StepRecord& record) const;
-  void tell_fibres(const StepRecord& reduced, StepRecord& record) const;
+  void update_turned_families(const StepRecord& reduced, StepRecord& record) const;
 
   Quotient quotient_;
   std::vector<std::vector<Image>> breaking_ties_;  // by kind of movement

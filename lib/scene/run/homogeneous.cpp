@@ -19,6 +19,7 @@ namespace {
 
 constexpr double same = 1e-9;
 
+// The faces of the body, if it is a box.
 struct Hull : BoundingBox {
   double bound(int axis, int side) const { return side > 0 ? high[axis] : low[axis]; }
   bool on(const Vec3& X, int axis, int side) const {
@@ -26,6 +27,7 @@ struct Hull : BoundingBox {
   }
 };
 
+// Whether all elements have the same directions; a family without direction is the same everywhere.
 bool same_fibres(const Mesh& mesh, const Scene& scene) {
   const std::vector<Fibre>& families = scene.materials.front().fibres;
   if (scene.families() == 0) return true;
@@ -40,10 +42,10 @@ bool same_fibres(const Mesh& mesh, const Scene& scene) {
   return true;
 }
 
-// What whole faces are told, as values of the box's corners; nothing where a node is told something
-// that is not its face's.
-std::optional<std::vector<Prescribed>> told_to_faces(const Mesh& mesh, const Dofs& dofs,
-                                                     const Hull& hull) {
+// Displacements that are prescribed on whole faces, as values of the corners of the box. Nothing
+// where a node has a prescribed displacement that the rest of its face has not.
+std::optional<std::vector<Prescribed>> displacements_of_faces(const Mesh& mesh, const Dofs& dofs,
+                                                              const Hull& hull) {
   std::map<int, History> imposed, explained;
   for (const Prescribed& p : dofs.prescribed) {
     if (p.turn) return std::nullopt;
@@ -103,6 +105,9 @@ std::optional<std::vector<SurfaceLoad>> loads_of_faces(const Mesh& mesh,
 
 }  // namespace
 
+// A box of one material that is loaded on whole faces deforms alike everywhere: one element has the
+// deformation of all. It is solved more accurately than asked, since its error appears in each
+// element of the mesh.
 HomogeneousScene::HomogeneousScene(const Mesh& mesh, const Scene& scene, const SolveConfig& config)
     : asked_(config.solver), solver_(config.solver) {
   if (auto* newton = std::get_if<NewtonOptions>(&solver_))
@@ -120,11 +125,13 @@ std::unique_ptr<HomogeneousScene> HomogeneousScene::find(const Mesh& mesh, const
   std::unique_ptr<HomogeneousScene> found(new HomogeneousScene(mesh, scene, config));
   if (!found->whole_ || !found->first_increment_balances(config.path)) return nullptr;
   if (!found->whole_->viscous()) return found;
-  // it has followed the increment of that trial
+  // Its viscous branches followed the increment of that trial, so a new one is made.
   std::unique_ptr<HomogeneousScene> afresh(new HomogeneousScene(mesh, scene, config));
   return afresh;
 }
 
+// The mesh must fill its bounding box, and a node must stand at each corner. The shape functions of
+// the box then give the displacements of all nodes.
 bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   if (mesh.section || !scene.contacts.empty() || scene.materials.size() != 1 ||
       !same_fibres(mesh, scene))
@@ -132,7 +139,7 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   const Hull hull{bounding_box(mesh.X)};
   const double volume = hull.size().prod();
   if (std::abs(quality(mesh).volume - volume) > same * volume) return false;
-  const auto corners = told_to_faces(mesh, scene.dofs, hull);
+  const auto corners = displacements_of_faces(mesh, scene.dofs, hull);
   const auto loads = loads_of_faces(mesh, scene.loads, hull);
   if (!corners || !loads) return false;
   scene_.loads = *loads;
@@ -174,13 +181,15 @@ bool HomogeneousScene::recognise(const Mesh& mesh, const Scene& scene) {
   scene_.stops = scene.stops;
   scene_.directions = scene.directions.of_cells(std::array{0});
   scene_.dofs = number_dofs(8, *corners).dofs;
-  return scene_.dofs.n_free() > 0;  // nothing to solve where every corner is told where to go
+  return scene_.dofs.n_free() > 0;  // nothing is left to solve where every corner is prescribed
 }
 
 Assembler HomogeneousScene::assembler() const {
   return Assembler(mesh_, scene_.materials, scene_.directions, scene_.formulation, scene_.dofs);
 }
 
+// The last word is with the mesh itself: the first increment of the box must be in equilibrium
+// there.
 bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
   bool balances = false;
   RunListener listener;
@@ -192,9 +201,10 @@ bool HomogeneousScene::first_increment_balances(const LoadPathOptions& path) {
   return balances;
 }
 
-// what the mesh says to u; a viscous one goes along
+// Computes the forces of the mesh at displacements u. Viscous branches follow to the time t, unless
+// they are there already.
 bool HomogeneousScene::balance(const VecX& u, double t) const {
-  const bool anew = whole_->viscous() && t != t_;  // else it is asked once more of the same state
+  const bool anew = whole_->viscous() && t != t_;
   if (anew) whole_->begin_increment((t - t_) * seconds_);
   whole_->load_to(t);
   whole_->pressures_from(u);

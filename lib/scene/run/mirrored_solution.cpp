@@ -118,6 +118,8 @@ std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& 
   return std::nullopt;
 }
 
+// A step of the other solution as it looks in the mirror: nodes, elements and candidates change
+// places, vectors and tensors are turned.
 StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
                          const std::vector<RigidContact>& contacts) {
   StepRecord out = step;
@@ -175,6 +177,9 @@ StepRecord image_of_step(const StepRecord& step, const MeshImage& g,
   return out;
 }
 
+// Copies the solution of a mirrored scene instead of solving it again. This is allowed only where
+// both configs differ in nothing but their fibre angles, and a mirror turns one scene into the
+// other.
 Mirrored mirrored(const MirrorTask& task) {
   const auto no = [&](std::string why) {
     return Mirrored{"", std::move(why)};

@@ -145,7 +145,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
     record.scalars["travel_" + controlled->name] = state.travel;
   record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
-  if (!statics.bonds().none()) tell_bonds(statics, record);
+  if (!statics.bonds().none()) record_bonds(statics, record);
   return record;
 }
 
