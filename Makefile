@@ -24,7 +24,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle wheel test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -162,6 +162,9 @@ deb: packaged
 bundle: packaged
 	@rm -rf $(package)/bundle && cmake --install $(package) --prefix $(CURDIR)/$(package)/bundle > /dev/null
 	@GMSH=$(GMSH) share/package/bundle $(package)/bundle $(version) $(package)
+# what pip installs: the same programs and libraries, and the Python package
+wheel: bundle
+	@SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) share/package/wheel $(package)/bundle $(version) $$(cat $(package)/glibc) $(package)
 test-package: deb bundle
 	@cmake -DROOT=$(CURDIR) -DPACKAGE=$(CURDIR)/$(package) -DWORK=$(CURDIR)/$(package)/test -P tests/stages/package.cmake
 # the tar in a bare system of another release, which debootstrap makes: as root
@@ -232,7 +235,7 @@ help:
 	@echo "make contact-discretisations  what error contact with friction has at nodes, in averages, at Gauss points"
 	@echo "make adaptive                 cells cut where the error comes from against even and graded ones: error over CPU seconds"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
-	@echo "make deb                      the same as a Debian package; make bundle: as a tar with its libraries, for any Linux; GMSH=1"
+	@echo "make deb                      the same as a Debian package; make bundle: as a tar with its libraries, for any Linux; GMSH=1; make wheel: for pip"
 	@echo "make test-package             both, and whether they hold what they should and run; make test-bundle SUITE=trixie: in a bare system"
 	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
 	@echo "make site                     docs, gallery, columns and keys as pages with a search (installs mkdocs-material)"
