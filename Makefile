@@ -63,6 +63,8 @@ work: planned
 	  { $(build)/bin/langer times --failed $(run) >&2; echo run > $(build)/stopped; }
 run: work
 	@$(call stopped,$(PIPELINE) stopped as said above; what is made stays and make goes on from there)
+	@[ ! -f $(run)/report/report.html ] || \
+	  echo "the report: $(run)/report/report.html (xdg-open $(run)/report/report.html shows it in a browser)"
 
 # why a step would run again; what each took
 explain: plan
