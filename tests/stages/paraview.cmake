@@ -25,7 +25,7 @@ run(0 ${python} ${ROOT}/tests/support/read_series.py ${WORK}/project/series.pvd 
 expect_said("3 states")
 
 # the solution as it lies: a series in time by VTK's reader of XDMF, and by ParaView's own where it is installed
-run(0 ${python} ${ROOT}/tests/support/read_xdmf.py ${WORK}/project/solution.xdmf ${WORK}/project/solution.h5)
+run(0 ${python} ${ROOT}/tests/support/read_xdmf.py ${WORK}/project/solution.xmf ${WORK}/project/solution.h5)
 message("${said}")
 expect_said("2 states")
 find_program(PVPYTHON pvpython)
@@ -33,6 +33,7 @@ if(PVPYTHON)
   run(0 ${PVPYTHON} ${ROOT}/tests/support/read_paraview.py ${WORK}/project)
   message("${said}")
   expect_said("solution.xdmf: 2 times")
+  expect_said("solution.xmf: 2 times")
   expect_said("series.pvd: 3 times")
 else()
   message("skipped: ParaView's own readers, for want of pvpython (Debian: paraview)")

@@ -1,13 +1,15 @@
-# What ParaView itself makes of a folder's solution.xdmf and series.pvd: pvpython read_paraview.py <folder>; ends with 1 where fields or times are missing.
+# What ParaView itself makes of a folder's solution.xdmf (as by a double click), solution.xmf and series.pvd: pvpython read_paraview.py <folder>; ends with 1 where fields or times are missing.
 import os
 import sys
 
-from paraview.simple import PVDReader, XDMFReader
+from paraview.simple import OpenDataFile, PVDReader, XDMFReader
 
 wrong = []
-for name, opened, point, cell in (("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("J", 1)),
-                                  ("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("reaction", 3), ("stress", 9)),
-                                  ("solution.xdmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("principal_direction_1", 3)),
+for name, opened, point, cell in (("solution.xdmf", OpenDataFile, ("u", 3), ("J", 1)),
+                                  ("solution.xdmf", OpenDataFile, ("reaction", 3), ("stress", 9)),
+                                  ("solution.xmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("J", 1)),
+                                  ("solution.xmf", lambda f: XDMFReader(FileNames=[f]), ("reaction", 3), ("stress", 9)),
+                                  ("solution.xmf", lambda f: XDMFReader(FileNames=[f]), ("u", 3), ("principal_direction_1", 3)),
                                   ("series.pvd", lambda f: PVDReader(FileName=f), ("sigma", 6), ("sigma", 6))):
     file = os.path.join(sys.argv[1], name)
     source = opened(file)

@@ -1,4 +1,4 @@
-# What VTK's reader of XDMF sees in solution.xdmf: read_xdmf.py <solution.xdmf> <solution.h5>; ends with 1 where it is not what stands in the solution.
+# What VTK's reader of XDMF sees in solution.xmf: read_xdmf.py <solution.xmf> <solution.h5>; ends with 1 where it is not what stands in the solution.
 import sys
 
 import h5py

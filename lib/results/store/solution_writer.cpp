@@ -32,8 +32,9 @@ struct SolutionWriter::State {
   void check(const StepRecord& record) const;
   void append(const StepRecord& record);
   void contact(const StepRecord& record);
-  // The text of <output>.xdmf.
-  std::string as_xdmf();
+  // Writes <output>.xdmf (version 3) and <output>.xmf (version 2) for viewers. Nothing without
+  // steps or with elements that XDMF does not know.
+  void write_xdmf();
 };
 
 namespace {
@@ -299,10 +300,8 @@ void SolutionWriter::State::contact(const StepRecord& record) {
         counts[s]);
 }
 
-// The XDMF text for ParaView and VisIt; empty without steps or with elements that XDMF does not
-// know.
-std::string SolutionWriter::State::as_xdmf() {
-  if (n_steps == 0 || !without_xdmf(header.mesh).empty()) return {};
+void SolutionWriter::State::write_xdmf() {
+  if (n_steps == 0 || !without_xdmf(header.mesh).empty()) return;
   const h5::Group grid = file.root().group("VTKHDF");
   std::vector<XdmfArray> arrays;
   for (const bool of_cells : {false, true}) {
@@ -317,7 +316,15 @@ std::string SolutionWriter::State::as_xdmf() {
   }
   const auto times =
       grid.group("Steps").read<double>("Values", {static_cast<std::size_t>(n_steps)}).values;
-  return xdmf(header.mesh, std::filesystem::path(path).filename().string(), times, arrays);
+  const std::filesystem::path solution = path;
+  const std::string name = solution.filename().string();
+  const auto write = [&](XdmfVersion version, const char* extension) {
+    std::filesystem::path text = solution;
+    write_text_file(text.replace_extension(extension).string(),
+                    xdmf(version, header.mesh, name, times, arrays));
+  };
+  write(XdmfVersion::three, ".xdmf");
+  write(XdmfVersion::two, ".xmf");
 }
 
 void SolutionWriter::append(const StepRecord& record) { state_->append(record); }
@@ -360,8 +367,7 @@ void SolutionWriter::finish(const std::optional<Cost>& cost, const std::vector<S
   write_cost(state_->file.root(), cost.value_or(cost_so_far()), !cost);
   if (!summary.empty()) write_summary(state_->file.root(), summary);
   write_earlier(state_->file.root().group("provenance"), earlier(), state_->header.identity.config);
-  if (const std::string text = state_->as_xdmf(); !text.empty())
-    write_text_file(std::filesystem::path(state_->path).replace_extension(".xdmf").string(), text);
+  state_->write_xdmf();
   state_->file.commit();  // last: a file with its final name is complete
   state_->journal->remove();
 }
