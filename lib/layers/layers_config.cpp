@@ -157,7 +157,7 @@ std::vector<Layer> layers_at_rest(const LayersConfig& config, const std::optiona
                                   const std::function<Place(const std::string&)>& where) {
   std::vector<Layer> layers;
   for (std::size_t i = 0; i < config.layers.size(); ++i) {
-    const LayerConfig& one = config.layers[i];
+    const StretchedLayerConfig& one = config.layers[i];
     const std::optional<Material>& material = one.material ? one.material : others;
     if (!material) {
       const std::string key = fmt::format("layers[{}].material", i);

@@ -25,23 +25,23 @@ namespace langer {
 enum class LayersKind { waves, wrinkles };
 constexpr auto names(LayersKind) { return std::array{"waves", "wrinkles"}; }
 
-struct LayerConfig {
+struct StretchedLayerConfig {
   std::string name;
   std::optional<double> thickness, density_kg_m3;
   std::optional<Material> material;
   double fibre_angle = 0;
   std::optional<PrestretchConfig> prestretch;
   static void fields(auto& v) {
-    v(&LayerConfig::name, "name", unit::none, "of the layer, in messages");
-    v(&LayerConfig::thickness, "thickness", unit::mm,
+    v(&StretchedLayerConfig::name, "name", unit::none, "of the layer, in messages");
+    v(&StretchedLayerConfig::thickness, "thickness", unit::mm,
       "at rest; the last layer may have none: it is a half-space", positive);
-    v(&LayerConfig::material, "material", unit::none,
+    v(&StretchedLayerConfig::material, "material", unit::none,
       "its law, such as {include: dermis.yaml}; without it, that of --material");
-    v(&LayerConfig::fibre_angle, "fibre_angle", unit::deg,
+    v(&StretchedLayerConfig::fibre_angle, "fibre_angle", unit::deg,
       "added to the fibre angles of its law, from x towards z");
-    v(&LayerConfig::density_kg_m3, "density_kg_m3", unit::none,
+    v(&StretchedLayerConfig::density_kg_m3, "density_kg_m3", unit::none,
       "at rest, in kg/m3, such as 1100; waves need it", positive);
-    v(&LayerConfig::prestretch, "prestretch", unit::none,
+    v(&StretchedLayerConfig::prestretch, "prestretch", unit::none,
       "of this layer before it was joined to the others; the prestretch of all comes on top");
   }
 };
@@ -73,7 +73,7 @@ struct CompressionConfig {
 
 struct LayersConfig {
   LayersKind kind = LayersKind::waves;
-  std::vector<LayerConfig> layers;
+  std::vector<StretchedLayerConfig> layers;
   BottomFace bottom = BottomFace::fixed;
   Dilatation dilatation = Dilatation::incompressible;
   PrestretchConfig prestretch;

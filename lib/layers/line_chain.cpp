@@ -116,7 +116,7 @@ LineChain<Number>::LineChain(std::vector<DirectedModuli<Number>> layers, LineMes
       tension_(surface_tension) {}
 
 template <class Number>
-void LineChain<Number>::add_stiffness(const Line& line, Number k, double w2, Local& E) const {
+void LineChain<Number>::add_stiffness(const DepthLine& line, Number k, double w2, Local& E) const {
   const DirectedModuli<Number>& m = layers_[static_cast<std::size_t>(line.layer)];
   const double h = line.length;
   const Mat volume = h * (k * k * m.Q - Mat(Mat::Identity() * Number(w2 * m.density)));
@@ -152,7 +152,7 @@ void LineChain<Number>::eliminate(Number k, double w2, bool keep) {
   Eigen::Matrix<Number, 4, 4> below = Eigen::Matrix<Number, 4, 4>::Zero();  // of (u, p)
   bool at_bottom = held_;
   for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
-    const Line& line = mesh_.lines[i];
+    const DepthLine& line = mesh_.lines[i];
     const bool first_of_layer = i == 0 || mesh_.lines[i - 1].layer != line.layer;
     const bool last_of_layer =
         i + 1 == mesh_.lines.size() || mesh_.lines[i + 1].layer != line.layer;
@@ -219,7 +219,7 @@ typename LineChain<Number>::Forms LineChain<Number>::forms(const Vec& v) const {
   Vec u = v;
   Number p = 0;
   for (std::size_t i = mesh_.lines.size(); i-- > 0;) {
-    const Line& line = mesh_.lines[i];
+    const DepthLine& line = mesh_.lines[i];
     const DirectedModuli<Number>& m = layers_[static_cast<std::size_t>(line.layer)];
     const Part& part = parts_[i];
     if (part.top_of_layer) p = part.pressure.transpose() * u;

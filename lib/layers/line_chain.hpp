@@ -70,7 +70,7 @@ class LineChain {
     Vec pressure = Vec::Zero();              // of the upper node, from its u; at the top of a layer
     bool top_of_layer = false;
   };
-  void add_stiffness(const Line& line, Number k, double w2, Local& E) const;
+  void add_stiffness(const DepthLine& line, Number k, double w2, Local& E) const;
 
   std::vector<DirectedModuli<Number>> layers_;
   LineMesh mesh_;

@@ -42,7 +42,7 @@ LineMesh line_mesh(const std::vector<double>& thickness, double k,
                    const std::vector<double>& oscillation, bool cuttable,
                    const LineChoice& choice) {
   LineMesh mesh;
-  std::vector<Line> from_top;
+  std::vector<DepthLine> from_top;
   double deepest = std::numeric_limits<double>::infinity();
   if (cuttable || std::isinf(thickness.back())) deepest = choice.depth / k;
   double depth = 0;

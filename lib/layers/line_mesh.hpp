@@ -13,7 +13,7 @@
 
 namespace langer {
 
-struct Line {
+struct DepthLine {
   double length = 0;  // [mm]
   int layer = 0;      // from the top
 };
@@ -27,8 +27,8 @@ struct LineChoice {
 };
 
 struct LineMesh {
-  std::vector<Line> lines;  // from the bottom to the top
-  bool cut = false;         // what lies below was left out, and the last node is held
+  std::vector<DepthLine> lines;  // from the bottom to the top
+  bool cut = false;              // what lies below was left out, and the last node is held
 };
 
 // thickness: deformed, from the top; the last may be infinite. oscillation: wavenumber through

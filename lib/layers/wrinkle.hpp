@@ -12,7 +12,7 @@
 // directions of k. Where short waves are the first to lose stability, all of them do at once:
 // Biot's surface instability (Biot 1963). Creases appear earlier (Hong, Zhao, Suo 2009: at 35 % in
 // plane strain of neo-Hooke) and are out of reach of a linearisation. References: Biot (1963),
-// Appl. Sci. Res. A 12; Cao and Hutchinson (2012), Proc. R. Soc. A 468; Ciarletta, Destrade, Gower
+// Appl. Sci. Res. A 12; Cao and Hutchinson (2012), J. Appl. Mech. 79; Ciarletta, Destrade, Gower
 // (2013), arXiv 1306.0198.
 #pragma once
 
