@@ -66,6 +66,13 @@ class Modes {
   }
 
   double fastest() const { return fastest_; }
+  // A wave on a half-space is slower than the shear wave that moves vertically: what is faster
+  // spreads through the depth.
+  double top_speed() const {
+    const DirectedModuli<double>& m = moduli_[0];
+    if (moduli_.size() > 1 || !std::isinf(thickness_[0])) return 1.2 * fastest_;
+    return std::sqrt(std::max(m.Q(1, 1), 1e-6 * m.Q.cwiseAbs().maxCoeff()) / m.density);
+  }
   const std::vector<DirectedModuli<double>>& moduli() const { return moduli_; }
 
   // Lines for waves of the wavenumber k that are as fast as `speed`.
@@ -103,6 +110,7 @@ struct Found {
   double mass = 0, slope = 0;  // of the motion with the surface motion v, |v| = 1
   Vec3 v = Vec3::Zero();
   bool exists = false;
+  bool trapped = false;  // below the surface, which does not move
 };
 
 // The eigenvalue of the surface stiffness that is closest to 0, with its vector.
@@ -138,15 +146,17 @@ struct Search {
 };
 
 // Mode number m between x with fewer than m modes and x with m or more: bisection by the number of
-// modes, then Newton's steps that stay within the bracket.
+// modes, then Newton's steps as long as they converge within the bracket.
 Found find_mode(const Search& search, int m, double low, double high) {
+  constexpr double rounding = 4e-15;
   Found found;
   int in_low = m - 1;
   int in_high = m;
   double x = 0.5 * (low + high);
-  double width = high - low;
-  bool alone = false;
-  for (int iteration = 0; iteration < 200; ++iteration) {
+  double last_step = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 300; ++iteration) {
+    const double size = std::max(std::abs(low), std::abs(high));
+    const bool alone = in_low == m - 1 && in_high == m && high - low < 0.05 * size;
     const int n = search.count(x, alone);
     if (n >= m) {
       high = x;
@@ -155,30 +165,26 @@ Found find_mode(const Search& search, int m, double low, double high) {
       low = x;
       in_low = n;
     }
-    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low <= rounding * size) break;
     double next = 0.5 * (low + high);
     if (alone) {
       const double step = search.step(found);
-      const double by_newton = x + step;
-      const bool inside = by_newton > low - 1e-14 * size && by_newton < high + 1e-14 * size;
-      if (inside && std::abs(step) < 4e-15 * size) {
-        x = by_newton;
-        found.exists = true;
-        break;
+      const bool inside = x + step >= low && x + step <= high;
+      if (std::abs(step) < rounding * size) break;
+      if (inside && std::abs(step) < 0.3 * last_step) {
+        next = x + step;
+        last_step = std::abs(step);
+      } else {
+        last_step = std::numeric_limits<double>::infinity();
       }
-      // Newton's method has to halve the bracket at least every other time
-      if (inside && (iteration % 3 != 2 || std::abs(step) < 1e-6 * size)) next = by_newton;
-    }
-    width = high - low;
-    alone = in_low == m - 1 && in_high == m && width < 0.05 * size;
-    if (width <= 4e-15 * size) {
-      search.count(x, true);
-      search.step(found);
-      found.exists = true;
-      break;
     }
     x = next;
   }
+  // A mode that does not move the surface is found by the number of modes alone.
+  search.count(x, true);
+  const double left = search.step(found);
+  found.trapped = !(std::abs(left) < 1e-7 * std::abs(x));
+  found.exists = true;
   found.k = search.k(x);
   found.w = std::sqrt(std::max(search.w2(x), 0.0));
   return found;
@@ -203,6 +209,7 @@ std::vector<Found> find_modes(const Search& search, double bottom, double top, i
 
 // How much a vertical line force at the surface excites a mode, up to a common factor.
 double vertical_excitation(const Found& mode) {
+  if (mode.trapped) return 0;
   const double slope = std::abs(mode.slope);
   return mode.v[1] * mode.v[1] / std::max(slope, std::numeric_limits<double>::min());
 }
@@ -286,14 +293,14 @@ GuidedWave guided_wave(const LayerStack& stack, const WaveQuery& query) {
   double top = 0;
   if (of_frequency) {
     if (search.count(0) > 0) return none("the stretched layers are unstable: they wrinkle");
-    top = 1.44 * fastest * fastest * k * k;
+    top = std::pow(modes.top_speed() * k, 2);
     for (int i = 0; i < 40 && search.count(top) == 0; ++i) top *= 2;
   } else {
     // at short wavelengths there are no modes below the frequency
     bottom = -k;
     for (int i = 0; i < 60 && search.count(bottom) > 0; ++i) bottom *= 1.5;
     if (search.count(bottom) > 0) return none("the stretched layers are unstable: they wrinkle");
-    top = -0.5 * k;
+    top = -k * fastest / modes.top_speed();
     for (int i = 0; i < 10 && search.count(top) == 0; ++i) top /= 2;
     if (search.count(top) == 0) return none("no wave of this frequency travels: it is cut off");
   }
