@@ -14,6 +14,7 @@
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/inverse/inverse_fit.hpp"
 #include "identification/inverse/scene_candidates.hpp"
+#include "identification/inverse/wave_tests.hpp"
 #include "identification/sensitivity/long_work.hpp"
 #include "identification/setup/fit_report.hpp"
 #include "identification/statistics/study_files.hpp"
@@ -143,13 +144,18 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
                    job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(),
                    job.output + ".runs");
   }
+  std::shared_ptr<WaveTests> waves;
+  if (config.has_waves()) {
+    waves = std::make_shared<WaveTests>(config, job.where, problem);
+    problem.further = waves;
+  }
   FitResult found = search(job, problem, scenes);
   remove_reached(job);
   const auto at_rest =
-      scenes ? std::nullopt
-             : stiffen_at_rest(problem, found,
-                               {config.searches(), static_cast<unsigned>(config.seed), {}},
-                               config.noise());
+      scenes || waves ? std::nullopt
+                      : stiffen_at_rest(problem, found,
+                                        {config.searches(), static_cast<unsigned>(config.seed), {}},
+                                        config.noise());
   FitRecord record = fit_record(problem, found);
   record.at_rest = at_rest;
   if (config.leave_one_out) record.left_out_error_percent = left_out_error(problem, found);
@@ -157,6 +163,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
     record.parameters[i].truth = config.parameters[i].truth.value_or(std::nan(""));
   if (scenes)
     for (const std::string& line : scenes->add_curves(found, record)) job.say("{}", line);
+  if (waves) record.curves = waves->fitted(found, problem.tests.size());
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.warn("{}", line);
   if (scenes)
@@ -170,7 +177,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
       job.warn("{}", second.text);
     }
   }
-  if (!scenes) record.study.range = fitted_range(found.material, problem.tests);
+  if (!scenes && !waves) record.study.range = fitted_range(found.material, problem.tests);
   if (config.study) {
     const SceneCandidates next = scene_candidates(config, problem, found, job.where);
     for (const std::string& line : next.without) job.warn("{}", line);
@@ -186,7 +193,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   if (!record.tests.empty()) write_text_file(job.side_file("fit.csv"), fit_csv(record));
   write_text_file(job.side_file("parameters.csv"), parameters_csv(record));
   write_curves_of_scenes(job, record);
-  if (config.study && config.study->figures && !scenes && problem.tests.size() == 1 &&
+  if (config.study && config.study->figures && !scenes && !waves && problem.tests.size() == 1 &&
       problem.tests[0].kind == TestKind::uniaxial)
     for (const std::string& line : draw_fit(csv_name(record.tests[0].measure + "_stress", "MPa"),
                                             config.figure_style, job.side_file("")))

@@ -9,6 +9,7 @@ set(rooms
   mechanics/linear mechanics/nonlinear mechanics/solve
   meshing
   results/store results/plot results/post
+  layers
   scene/model scene/run
   accuracy/checks accuracy/estimate accuracy/refinement
   identification/fit identification/sensitivity identification/statistics identification/setup

@@ -31,6 +31,11 @@ std::vector<Complaint> FitData::complaints() const {
     complain_of_scene(all);
     return all;
   }
+  if (is_wave()) {
+    complain_of_wave(all);
+    return all;
+  }
+  complain_of_wave_keys(all);
   if (file.path.empty())
     all.push_back(
         {"file", "missing", "the path of a file, relative to this one (measured test, CSV)", ""});
@@ -158,6 +163,14 @@ FreeParameter free_number(const FitConfig& config, const FitParameter& p,
       one.unit = unit::N;
       one.start = data->force_offset;
       box = {-1, 1};
+    } else if (number.of == SceneNumber::Of::stretch_along) {
+      one.name = "prestretch_along" + behind;
+      one.start = data->prestretch.value_or(PrestretchConfig{}).along;
+      box = {0.7, 1.5};
+    } else if (number.of == SceneNumber::Of::stretch_across) {
+      one.name = "prestretch_across" + behind;
+      one.start = data->prestretch.value_or(PrestretchConfig{}).across;
+      box = {0.7, 1.5};
     } else {
       one.name = "compliance" + behind;
       one.unit = "mm/N";
@@ -277,35 +290,46 @@ void complain_about_time(const FitConfig& config, std::vector<Complaint>& all) {
   if (config.dilatation == Dilatation::compressible)
     all.push_back({"dilatation", "compressible, and a viscous material", "incompressible", ""});
   for (std::size_t i = 0; i < config.data.size(); ++i)
-    if (const auto& columns = config.data[i].columns;
-        !config.data[i].is_scene() && (!columns || columns->time.empty()))
+    if (const auto& columns = config.data[i].columns; !config.data[i].is_scene() &&
+                                                      !config.data[i].is_wave() &&
+                                                      (!columns || columns->time.empty()))
       all.push_back({fmt::format("data[{}].columns.time", i),
                      "missing, and the material is viscous", "the column of times in s",
                      "columns: {time: t_s, strain_x: ..., stress_x: ...}"});
 }
 
-// Options that a fit with scenes does not have.
+// Options that a fit with scenes or waves does not have.
 void complain_about_scenes(const FitConfig& config, std::vector<Complaint>& all) {
+  const std::string what = config.has_scenes() ? "scenes" : "waves";
   if (config.cross_check != SecondAnswer::none)
     all.push_back(
-        {"cross_check", "found in a fit with scenes", "none", "it takes thousands of runs"});
+        {"cross_check", "found in a fit with " + what, "none", "it takes thousands of runs"});
   if (config.dilatation == Dilatation::compressible)
-    all.push_back({"dilatation", "compressible, in a fit with scenes", "incompressible",
-                   "scenes count the volume term anyway"});
+    all.push_back({"dilatation", "compressible, in a fit with " + what, "incompressible",
+                   config.has_scenes() ? "scenes count the volume term anyway" : ""});
   if (config.noise_model != NoiseKind::automatic && config.noise_model != NoiseKind::white)
     all.push_back({"noise",
                    std::string("found ") +
                        names(config.noise_model)[static_cast<int>(config.noise_model)] +
-                       " in a fit with scenes",
-                   "auto or white", "the noise of scenes is their standard_deviation"});
+                       " in a fit with " + what,
+                   "auto or white", "the noise of " + what + " is their standard_deviation"});
   if (config.leave_one_out)
-    all.push_back({"leave_one_out", "true, in a fit with scenes", "false",
+    all.push_back({"leave_one_out", "true, in a fit with " + what, "false",
                    "a fit to some of the tests alone needs a config of its own"});
   for (std::size_t i = 0; i < config.data.size(); ++i) {
     const FitData& data = config.data[i];
-    if (!data.is_scene() && data.weight)
-      all.push_back({fmt::format("data[{}].weight", i), "found in a fit with scenes",
-                     "standard_deviation, which makes MPa and N comparable", ""});
+    if (!data.is_scene() && !data.is_wave() && data.weight)
+      all.push_back({fmt::format("data[{}].weight", i), "found in a fit with " + what,
+                     "standard_deviation, which makes different units comparable", ""});
+  }
+}
+
+// A fit has further tests of one kind.
+void complain_about_waves_with_scenes(const FitConfig& config, std::vector<Complaint>& all) {
+  for (std::size_t i = 0; i < config.data.size(); ++i) {
+    if (!config.data[i].is_wave()) continue;
+    all.push_back({fmt::format("data[{}].kind", i), "wave, in a fit with scenes",
+                   "waves and homogeneous tests, or scenes and homogeneous tests", ""});
   }
 }
 
@@ -357,8 +381,9 @@ std::vector<Complaint> FitConfig::complaints() const {
     all.push_back({"parameters", "an empty list", "one number to find at least", ""});
   if (dilatation == Dilatation::compressible)
     for (std::size_t i = 0; i < data.size(); ++i)
-      if (!data[i].is_scene() && (data[i].kind != DataKind::uniaxial ||
-                                  data[i].shear == OffAxisShear::free || data[i].fibre_angle != 0))
+      if (!data[i].is_scene() && !data[i].is_wave() &&
+          (data[i].kind != DataKind::uniaxial || data[i].shear == OffAxisShear::free ||
+           data[i].fibre_angle != 0))
         all.push_back(
             {"data[" + std::to_string(i) + "].kind",
              "a test whose state is solved without change of volume",
@@ -378,6 +403,9 @@ std::vector<Complaint> FitConfig::complaints() const {
     const auto number = scene_number(*this, p.key);
     if (found == keys.end() && !number) {
       all.push_back(unknown(at + "key", p.key, known));
+      if (has_waves())
+        all.back().expected +=
+            ", data[i].prestretch.along, data[i].prestretch.across of a wave test";
       if (has_scenes())
         all.back().expected +=
             ", contacts.<name>.friction, data[i].touch_offset, data[i].force_offset, data[i].compliance of a scene";
@@ -392,6 +420,8 @@ std::vector<Complaint> FitConfig::complaints() const {
     }
     const double lower = free[i].lower;
     const double upper = free[i].upper;
+    const bool stretches = number && (number->of == SceneNumber::Of::stretch_along ||
+                                      number->of == SceneNumber::Of::stretch_across);
     const bool from_zero = number && (number->of == SceneNumber::Of::friction ||
                                       number->of == SceneNumber::Of::compliance);
     Range range;
@@ -399,6 +429,8 @@ std::vector<Complaint> FitConfig::complaints() const {
       range = known[static_cast<std::size_t>(found - keys.begin())].range;
     } else if (from_zero) {
       range = at_least(0);
+    } else if (stretches) {
+      range = positive;
     }
     if (!(lower < upper)) {
       all.push_back({at + (p.upper ? "upper" : "key"), "found " + number_text(upper),
@@ -421,7 +453,8 @@ std::vector<Complaint> FitConfig::complaints() const {
            p.start ? "" : "the start is the material's own value unless `start` is given"});
   }
   complain_about_ties(*this, known, all);
-  if (has_scenes()) complain_about_scenes(*this, all);
+  if (has_scenes() || has_waves()) complain_about_scenes(*this, all);
+  if (has_scenes() && has_waves()) complain_about_waves_with_scenes(*this, all);
   return all;
 }
 
@@ -451,7 +484,7 @@ FitProblem fit_problem(const FitConfig& config) {
   FitProblem problem{config.law, free_parameters(config), measured_tests(config), config.dilatation,
                      ties_of(config)};
   problem.noise = config.noise_model;
-  if (config.has_scenes()) problem.noise = NoiseKind::white;
+  if (config.has_scenes() || config.has_waves()) problem.noise = NoiseKind::white;
   if (config.bounds == Bounds::custom) return problem;
   const double secant = 3 * greatest_secant(problem.tests);
   Material law = config.law;

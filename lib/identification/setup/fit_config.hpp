@@ -20,6 +20,7 @@
 #include "core/config/tree.hpp"
 #include "identification/fit/fit.hpp"
 #include "identification/statistics/study_config.hpp"
+#include "layers/prestretch_config.hpp"
 #include "results/plot/figure_style.hpp"
 
 namespace langer {
@@ -28,8 +29,9 @@ struct FitColumns {
   std::string strain_x, strain_z, stress_x, stress_z, time;
   std::string t, u_ind, displacement, pressure;  // of a scene: over what
   std::string force, reaction_x, reaction_y, reaction_z, u_x, u_y,
-      u_z;              // of a scene: what was measured
-  std::string x, y, z;  // of a scene: where
+      u_z;                              // of a scene: what was measured
+  std::string x, y, z;                  // of a scene: where
+  std::string angle, speed, frequency;  // of a wave
   static void fields(auto& v) {
     v(&FitColumns::strain_x, "strain_x", unit::none,
       "deformation along x; in simple shear its amount");
@@ -62,6 +64,12 @@ struct FitColumns {
       "of a scene: x at rest of each measured place on the surface");
     v(&FitColumns::y, "y", unit::none, "of a scene: y at rest; none: the top");
     v(&FitColumns::z, "z", unit::none, "of a scene: z at rest; none: 0");
+    v(&FitColumns::angle, "angle", unit::none,
+      "of a wave: direction of travel in degrees from x towards z; without `columns`, angle_deg");
+    v(&FitColumns::speed, "speed", unit::none,
+      "of a wave: measured phase speed in m/s; without `columns`, speed_m_s");
+    v(&FitColumns::frequency, "frequency", unit::none,
+      "of a wave: frequency in Hz, where speeds depend on it; without `columns`, frequency_Hz");
   }
 };
 
@@ -86,6 +94,8 @@ struct FitData {
   double fibre_angle = 0;
   std::optional<DecimalSign> decimal;
   std::optional<double> width, thickness, gauge_length, width_z, gauge_length_z, toe;
+  std::optional<double> density_kg_m3;
+  std::optional<PrestretchConfig> prestretch;
   ZeroAt zero_at = ZeroAt::reading;
   bool normalised = false;
   std::optional<double> weight, standard_deviation, strain_from, strain_to, time_from, time_to,
@@ -135,7 +145,14 @@ struct FitData {
       "sign of decimals where the file leaves it open, as 1,234 does");
     v(&FitData::width, "width", unit::mm, "of the specimen at rest, across a force along x",
       positive);
-    v(&FitData::thickness, "thickness", unit::mm, "of the specimen at rest, for forces", positive);
+    v(&FitData::thickness, "thickness", unit::mm,
+      "of the specimen at rest, for forces; of a wave: of the skin, held below; none: a half-space",
+      positive);
+    v(&FitData::density_kg_m3, "density_kg_m3", unit::none,
+      "of a wave: density at rest in kg/m3, such as 1100", positive);
+    v(&FitData::prestretch, "prestretch", unit::none,
+      "of a wave: stretch of the skin that it travels in; may be parameters, "
+      "data[i].prestretch.along and data[i].prestretch.across");
     v(&FitData::gauge_length, "gauge_length", unit::mm,
       "length at rest between grips or marks, for elongations along x", positive);
     v(&FitData::width_z, "width_z", unit::mm, "of the specimen at rest, across a force along z",
@@ -215,10 +232,13 @@ struct FitData {
       "of viscous branches stay what they are");
   }
   bool is_scene() const { return kind == DataKind::scene; }
+  bool is_wave() const { return kind == DataKind::wave; }
   std::vector<Complaint> complaints() const;
 
  private:
   void complain_of_scene(std::vector<Complaint>& all) const;
+  void complain_of_wave(std::vector<Complaint>& all) const;
+  void complain_of_wave_keys(std::vector<Complaint>& all) const;  // in other tests
   void complain_of_laboratory_keys(std::vector<Complaint>& all) const;
   void complain_of_homogeneous_keys(
       std::vector<Complaint>& all) const;  // that a scene does not read
@@ -293,7 +313,7 @@ struct FitConfig {
     v(&FitConfig::leave_one_out, "leave_one_out", unit::none,
       "predict each test from a fit to the others, and report the error");
     v(&FitConfig::starts, "starts", unit::none,
-      "searches: one from the start values, the others from random places in the box; none: 20, with scenes 1",
+      "searches: one from the start values, the others from random places in the box; none: 20, with waves 4, with scenes 1",
       between(1, 100000));
     v(&FitConfig::jobs, "jobs", unit::none,
       "scenes that are solved in parallel; the results do not depend on it", between(1, 256));
@@ -307,11 +327,13 @@ struct FitConfig {
     v(&FitConfig::figure_style, "figure_style", unit::none, "how figures are made");
   }
   bool has_scenes() const;
+  bool has_waves() const;
   double noise() const {
     return study.value_or(StudyConfig{}).noise;
   }  // part of the largest value of a test
   int searches() const {
     if (has_scenes()) return starts.value_or(1);
+    if (has_waves()) return starts.value_or(4);
     return starts.value_or(20);
   }
   std::vector<Complaint> complaints() const;
@@ -326,13 +348,21 @@ Range default_bounds(const MaterialParameter& parameter, Bounds bounds, double s
 // (complaints() names it)
 std::vector<FreeParameter> free_parameters(const FitConfig& config);
 
-// The number of a scene that a key names; nothing for keys of the material.
+// The number of a scene or a wave test that a key names; nothing for keys of the material.
 struct SceneNumber {
-  enum class Of { friction, touch_offset, force_offset, compliance } of = Of::friction;
+  enum class Of {
+    friction,
+    touch_offset,
+    force_offset,
+    compliance,
+    stretch_along,  // of a wave
+    stretch_across
+  } of = Of::friction;
   std::string contact;   // of friction
   std::size_t data = 0;  // of the others
 };
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key);
+std::optional<SceneNumber> wave_number_key(const FitConfig& config, const std::string& key);
 inline std::optional<SceneNumber> scene_number(const FitConfig& config, const FreeParameter& p) {
   if (p.is_material_number()) return std::nullopt;
   return scene_number(config, p.key);

@@ -130,9 +130,9 @@ std::vector<Test> measured_tests(const FitConfig& config) {
     return std::any_of(tests.begin(), tests.end(), [&](const Test& t) { return t.name == name; });
   };
   for (const FitData& data : config.data) {
-    if (data.is_scene()) continue;
+    if (data.is_scene() || data.is_wave()) continue;
     for (Test& test : read_tests(data.file.path, test_format(data, config.law))) {
-      if (config.has_scenes() && !data.standard_deviation) {
+      if ((config.has_scenes() || config.has_waves()) && !data.standard_deviation) {
         test.weight = 1 / (config.noise() * std::max(largest_stress(test), 1e-300));
       }
       const std::string name = test.name;

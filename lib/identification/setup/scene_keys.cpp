@@ -50,6 +50,7 @@ void FitData::complain_of_homogeneous_keys(std::vector<Complaint>& all) const {
 void FitData::complain_of_scene(std::vector<Complaint>& all) const {
   if (solve.path.empty())
     all.push_back({"solve", "missing", "config of langer-solve that the test is", ""});
+  complain_of_wave_keys(all);
   if (weight)
     all.push_back(
         {"weight", "found in a scene", "standard_deviation, in the unit of what was measured", ""});
@@ -115,6 +116,7 @@ bool FitConfig::has_scenes() const {
 
 // Reads keys such as contacts.ball.friction and data[0].touch_offset.
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key) {
+  if (const auto stretch = wave_number_key(config, key)) return stretch;
   if (!config.has_scenes()) return std::nullopt;
   const std::string contact = "contacts.";
   const std::string friction = ".friction";
@@ -135,6 +137,10 @@ std::optional<SceneNumber> scene_number(const FitConfig& config, const std::stri
 // measured.
 std::vector<Complaint> CandidateChoice::complaints() const {
   std::vector<Complaint> all;
+  if (kind == DataKind::wave) {
+    all.push_back({"kind", "wave, of a candidate", "a homogeneous test or a scene", ""});
+    return all;
+  }
   if (kind != DataKind::scene) {
     for (const auto& [key, found] : {std::pair("solve", !solve.path.empty()),
                                      {"vary", !vary.empty()},

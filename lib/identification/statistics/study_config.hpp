@@ -14,9 +14,10 @@
 namespace langer {
 
 // What a test imposes: TestKind, in its order, or a whole scene.
-enum class DataKind { uniaxial, equibiaxial, biaxial, pure_shear, simple_shear, scene };
+enum class DataKind { uniaxial, equibiaxial, biaxial, pure_shear, simple_shear, scene, wave };
 constexpr auto names(DataKind) {
-  return std::array{"uniaxial", "equibiaxial", "biaxial", "pure_shear", "simple_shear", "scene"};
+  return std::array{"uniaxial",     "equibiaxial", "biaxial", "pure_shear",
+                    "simple_shear", "scene",       "wave"};
 }
 
 enum class SceneQuantity { force, reaction_x, reaction_y, reaction_z, u_x, u_y, u_z };

@@ -9,6 +9,7 @@
 #include "identification/inverse/sample_config.hpp"
 #include "identification/sensitivity/sensitivity_config.hpp"
 #include "identification/setup/fit_config_io.hpp"
+#include "layers/layers_config.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "pipeline/plan/run_files.hpp"
 #include "pipeline/plan/stage_config.hpp"
@@ -85,6 +86,7 @@ const std::vector<std::pair<const char*, ConfigKind>>& kinds() {
       {"sensitivity", kind<SensitivityConfig>()},
       {"solve", kind<SolveConfig>()},
       {"post", kind<PostConfig>()},
+      {"layers", kind<LayersConfig>()},
       {"gather", kind<GatherConfig>()},
       {"report", kind<ReportConfig>()},
       {"tune", kind<TuneConfig>()},
@@ -129,6 +131,7 @@ template ReadConfig read_stage_config(Tree, SampleConfig&);
 template ReadConfig read_stage_config(Tree, SensitivityConfig&);
 template ReadConfig read_stage_config(Tree, SolveConfig&);
 template ReadConfig read_stage_config(Tree, PostConfig&);
+template ReadConfig read_stage_config(Tree, LayersConfig&);
 template ReadConfig read_stage_config(Tree, GatherConfig&);
 template ReadConfig read_stage_config(Tree, ReportConfig&);
 template ReadConfig read_stage_config(Tree, TuneConfig&);

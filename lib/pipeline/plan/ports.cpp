@@ -53,6 +53,16 @@ const StageSpec solve_stage{
       .required = false}},
     "solution.h5",
     true};
+// Homogeneously stretched layers need no mesh: only their laws. The table has the name of that of
+// gather, so that a node called `table` leaves what pipelines promise.
+const StageSpec layers_stage{"layers",
+                             "Waves and wrinkles of stretched layers, over the direction.",
+                             {{.name = "material",
+                               .says = "the law of the layers that have none in the config",
+                               .made_by = {"fit", "sample"},
+                               .required = false,
+                               .takes_yaml = true}},
+                             "table.h5"};
 // A solution has all that post needs: mesh, material, config and every step.
 const StageSpec post_stage{
     "post",
@@ -68,7 +78,7 @@ const StageSpec gather_stage{"gather",
                              "Collects one quantity or several over a sweep.",
                              {{.name = "curves",
                                .says = "a member of the sweep: any file with a /summary",
-                               .made_by = {"post", "fit", "sensitivity", "mesh"},
+                               .made_by = {"post", "layers", "fit", "sensitivity", "mesh"},
                                .several = true,
                                .members = true},
                               {.name = "material",
@@ -98,7 +108,7 @@ const StageSpec report_stage{
       .several = true},
      {.name = "curves",
       .says = "curves of a solution",
-      .made_by = {"post"},
+      .made_by = {"post", "layers"},
       .required = false,
       .several = true},
      {.name = "table",
@@ -123,9 +133,9 @@ const StageSpec tune_stage{
 
 // The order is that of the work, and of the pages that list the stages.
 const std::vector<StageSpec>& stages() {
-  static const std::vector<StageSpec> table{mesh_stage,        fit_stage,    sample_stage,
-                                            sensitivity_stage, solve_stage,  post_stage,
-                                            gather_stage,      report_stage, tune_stage};
+  static const std::vector<StageSpec> table{
+      mesh_stage, fit_stage,    sample_stage, sensitivity_stage, solve_stage,
+      post_stage, layers_stage, gather_stage, report_stage,      tune_stage};
   return table;
 }
 

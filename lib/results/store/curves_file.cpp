@@ -15,6 +15,7 @@ namespace langer {
 
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
+  if (unit == "m/s") return name + "_m_s";
   std::string rest = unit;
   std::string word;
   if (rest.starts_with("1/")) {

@@ -1,0 +1,73 @@
+#include "layers/line_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace langer {
+
+namespace {
+
+// Lengths from a face to a distance from it: growing up to the largest, then alike.
+std::vector<double> graded(double distance, double k, const LineChoice& choice) {
+  const double g = choice.growth * k;
+  const double to_largest = (choice.largest / choice.size - 1) / g;
+  const double grows = std::min(distance, to_largest);
+  const double room = std::log1p(g * grows) / (choice.growth * choice.size);
+  const int n = std::max(1, static_cast<int>(std::ceil(room))) * choice.refine;
+  std::vector<double> lengths;
+  double before = 0;
+  for (int i = 1; i <= n; ++i) {
+    const double here = std::expm1(std::log1p(g * grows) * i / n) / g;
+    lengths.push_back(here - before);
+    before = here;
+  }
+  const double left = distance - grows;
+  if (left > 0) {
+    const int alike = static_cast<int>(std::ceil(left * k / choice.largest)) * choice.refine;
+    lengths.insert(lengths.end(), static_cast<std::size_t>(alike), left / alike);
+  }
+  return lengths;
+}
+
+std::vector<double> uniform(double thickness, double oscillation, const LineChoice& choice) {
+  const double room = thickness * oscillation / choice.size;
+  const int n = std::max(2, static_cast<int>(std::ceil(room))) * choice.refine;
+  return std::vector<double>(static_cast<std::size_t>(n), thickness / n);
+}
+
+}  // namespace
+
+LineMesh line_mesh(const std::vector<double>& thickness, double k,
+                   const std::vector<double>& oscillation, bool cuttable,
+                   const LineChoice& choice) {
+  LineMesh mesh;
+  std::vector<DepthLine> from_top;
+  double deepest = std::numeric_limits<double>::infinity();
+  if (cuttable || std::isinf(thickness.back())) deepest = choice.depth / k;
+  double depth = 0;
+  for (std::size_t layer = 0; layer < thickness.size() && !mesh.cut; ++layer) {
+    const double left = deepest - depth;
+    const double oscillates = std::max(oscillation[layer], 0.0);
+    std::vector<double> lengths;
+    mesh.cut = thickness[layer] > left && (oscillates == 0 || std::isinf(thickness[layer]));
+    const double here = mesh.cut ? left : thickness[layer];
+    if (oscillates > k) {
+      lengths = uniform(here, oscillates, choice);
+    } else if (mesh.cut) {
+      lengths = graded(here, k, choice);
+    } else {
+      lengths = graded(here / 2, k, choice);
+      std::vector<double> below(lengths.rbegin(), lengths.rend());
+      lengths.insert(lengths.end(), below.begin(), below.end());
+    }
+    for (const double length : lengths) {
+      from_top.push_back({length, static_cast<int>(layer)});
+    }
+    depth += here;
+  }
+  mesh.lines.assign(from_top.rbegin(), from_top.rend());
+  return mesh;
+}
+
+}  // namespace langer

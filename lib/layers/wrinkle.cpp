@@ -1,0 +1,322 @@
+#include "layers/wrinkle.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace langer {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+constexpr double pi = std::numbers::pi;
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+// Whether waves of the wavenumber k along a direction grow.
+bool unstable(const LayerStack& stack, double wave_angle, double k, int refine) {
+  std::vector<DirectedModuli<double>> moduli;
+  std::vector<double> thickness;
+  for (const LayerState& layer : stack.layers) {
+    moduli.push_back(directed_moduli(layer, wave_angle));
+    thickness.push_back(layer.thickness);
+  }
+  LineChoice choice;
+  choice.refine = refine;
+  const std::vector<double> decays(thickness.size(), 0.0);
+  const bool cuttable = stack.bottom == BottomFace::fixed;
+  LineChain<double> chain(moduli, line_mesh(thickness, k, decays, cuttable, choice), stack.bottom,
+                          stack.surface_tension);
+  chain.eliminate(k, 0);
+  return chain.modes_below() > 0;
+}
+
+// The path of one direction: s as a distance t >= 0 from the prestretch.
+class Path {
+ public:
+  Path(const WrinkleProblem& problem, double angle) : problem_(problem), angle_(angle) {
+    end_ = problem.load == WrinkleLoad::shear ? 1 / problem.limit : -std::log(problem.limit);
+  }
+
+  double end() const { return end_; }
+  double s(double t) const { return problem_.load == WrinkleLoad::shear ? t : std::exp(-t); }
+  LayerStack stack(double t) const { return problem_.stack(angle_, s(t)); }
+
+  bool unstable_at(double t, double wave_angle, double k, int refine) const {
+    const LayerStack there = stack(t);
+    return !there.exists() || unstable(there, wave_angle, k, refine);
+  }
+
+  // The smallest t in [low, high] at which a wave is unstable; it is at `high`.
+  double critical(double low, double high, double wave_angle, double k, int refine,
+                  double tolerance) const {
+    while (high - low > tolerance) {
+      const double middle = 0.5 * (low + high);
+      if (unstable_at(middle, wave_angle, k, refine)) {
+        high = middle;
+      } else {
+        low = middle;
+      }
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  const WrinkleProblem& problem_;
+  double angle_, end_;
+};
+
+// Wavenumbers that are tried: from long waves of the whole stack to short ones of its thinnest
+// layer.
+std::vector<double> wavenumbers(const LayerStack& stack) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  double whole = 0;
+  for (const LayerState& layer : stack.layers) {
+    if (std::isinf(layer.thickness)) continue;
+    thinnest = std::min(thinnest, layer.thickness);
+    whole += layer.thickness;
+  }
+  if (whole == 0) {  // a half-space has no length of its own, but for its surface tension
+    if (stack.surface_tension == 0) return {1.0};
+    const double length = stack.surface_tension / stack.layers[0].A.cwiseAbs().maxCoeff();
+    whole = thinnest = length;
+  }
+  constexpr double ratio = 1.35;
+  const double shortest = 12 / thinnest;
+  std::vector<double> all;
+  for (double k = 0.01 / whole; k < shortest * ratio; k *= ratio) all.push_back(k);
+  return all;
+}
+
+struct Wave {
+  double angle, k;
+};
+
+// Brackets of t: no wave of the list is unstable at `low`, those that remain are at `high`.
+struct Bracket {
+  double low = 0, high = 0;
+  std::vector<Wave> unstable;
+};
+
+std::vector<Wave> unstable_of(const Path& path, double t, const std::vector<Wave>& waves) {
+  const LayerStack stack = path.stack(t);
+  std::vector<Wave> found;
+  if (!stack.exists()) return found;
+  for (const Wave& wave : waves) {
+    if (unstable(stack, wave.angle, wave.k, 1)) found.push_back(wave);
+  }
+  return found;
+}
+
+// The smallest of a function with a single minimum, golden section: where, and how much.
+template <class Value>
+std::pair<double, double> golden(double low, double high, double tolerance, const Value& value) {
+  const double g = (std::sqrt(5.0) - 1) / 2;
+  double a = high - g * (high - low);
+  double b = low + g * (high - low);
+  double at_a = value(a);
+  double at_b = value(b);
+  while (high - low > tolerance) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - g * (high - low);
+      at_a = value(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + g * (high - low);
+      at_b = value(b);
+    }
+  }
+  if (at_a < at_b) return {a, at_a};
+  return {b, at_b};
+}
+
+// First t of waves along one direction over all wavenumbers near `start`, at the lines of `refine`.
+struct Optimum {
+  double k = 0, t = 0;
+};
+
+Optimum smallest_over_k(const Path& path, double wave_angle, double start, double from, double to,
+                        int refine, bool any_wavelength) {
+  constexpr double fine = 1e-12;
+  if (any_wavelength) return {start, path.critical(from, to, wave_angle, start, refine, fine)};
+  const double middle = std::log(start);
+  const auto t_of = [&](double log_k) {
+    const double k = std::exp(log_k);
+    if (!path.unstable_at(to, wave_angle, k, refine)) return to + 1e-9 * std::abs(log_k - middle);
+    return path.critical(from, to, wave_angle, k, refine, 1e-11);
+  };
+  const auto [log_k, t] = golden(middle - 0.35, middle + 0.35, 1e-4, t_of);
+  return {std::exp(log_k), t};
+}
+
+// Force along m per width, over all layers; of a half-space alone that of its material [MPa mm].
+double force_along(const LayerStack& stack, const Vec3& m) {
+  double sum = 0;
+  for (const LayerState& layer : stack.layers) {
+    const double stress = m.dot(layer.sigma * m);
+    if (std::isinf(layer.thickness)) return stress;
+    sum += stress * layer.thickness;
+  }
+  return sum;
+}
+
+}  // namespace
+
+PlaneDeformation WrinkleProblem::deformation(double angle, double s) const {
+  const Vec2 n(std::cos(angle), std::sin(angle));
+  const Vec2 m(-std::sin(angle), std::cos(angle));
+  const PlaneDeformation one = PlaneDeformation::Identity();
+  if (load == WrinkleLoad::shear) return (one + s * n * m.transpose()) * prestretch;
+  if (width == WidthUnderCompression::equal) return s * prestretch;
+  const PlaneDeformation compressed = one + (s - 1) * n * n.transpose();
+  if (width == WidthUnderCompression::held) return compressed * prestretch;
+  // width free: bisection of the force along m
+  const Vec3 across(m[0], 0, m[1]);
+  const auto at = [&](double w) -> PlaneDeformation {
+    return (compressed + (w - 1) * m * m.transpose()) * prestretch;
+  };
+  const auto force = [&](double w) {
+    LayerStack stack;
+    for (const Layer& layer : layers) stack.layers.push_back(layer_state(layer, at(w), dilatation));
+    return stack.exists() ? force_along(stack, across) : not_known;
+  };
+  double low = 0.2;
+  double high = 5;
+  for (int i = 0; i < 100 && high - low > 1e-15 * high; ++i) {
+    const double middle = std::sqrt(low * high);
+    const double f = force(middle);
+    if (f > 0 || (std::isnan(f) && middle > 1)) {
+      high = middle;
+    } else {
+      low = middle;
+    }
+  }
+  return at(std::sqrt(low * high));
+}
+
+LayerStack WrinkleProblem::stack(double angle, double s) const {
+  LayerStack stack;
+  const PlaneDeformation F = deformation(angle, s);
+  for (const Layer& layer : layers) stack.layers.push_back(layer_state(layer, F, dilatation));
+  stack.bottom = bottom;
+  stack.surface_tension = surface_tension;
+  return stack;
+}
+
+Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
+  Wrinkle wrinkle;
+  wrinkle.wavelength = wrinkle.wavelength_before = wrinkle.s = not_known;
+  wrinkle.wave_angle = angle;
+  const Path path(problem, angle);
+  const LayerStack at_rest = path.stack(0);
+  if (!at_rest.exists()) {
+    wrinkle.kind = Wrinkle::Kind::no_state;
+    return wrinkle;
+  }
+  const std::vector<double> ks = wavenumbers(at_rest);
+  const auto waves_along = [&](std::initializer_list<double> degrees) {
+    std::vector<Wave> waves;
+    for (const double beside : degrees)
+      for (const double k : ks) waves.push_back({angle + beside * pi / 180, k});
+    return waves;
+  };
+  const bool shear = problem.load == WrinkleLoad::shear;
+  std::vector<Wave> waves = waves_along({0});
+  const std::vector<Wave> others = waves_along({15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90});
+  if (shear) waves.insert(waves.end(), others.begin(), others.end());
+  if (!unstable_of(path, 0, waves).empty()) {
+    wrinkle.kind = Wrinkle::Kind::at_once;
+    wrinkle.s = path.s(0);
+    return wrinkle;
+  }
+
+  // forward until a wave grows
+  Bracket bracket;
+  double step = 0.02;
+  while (bracket.unstable.empty() && bracket.high < path.end()) {
+    bracket.low = bracket.high;
+    bracket.high = std::min(bracket.high + step, path.end());
+    step *= 1.6;
+    if (!path.stack(bracket.high).exists()) {
+      wrinkle.kind = Wrinkle::Kind::no_state;
+      return wrinkle;
+    }
+    bracket.unstable = unstable_of(path, bracket.high, waves);
+  }
+  if (bracket.unstable.empty()) return wrinkle;
+
+  // the first of them, among those that still grow
+  const auto narrow = [&path](Bracket& b) {
+    for (int i = 0; i < 60 && b.high - b.low > 1e-4 * b.high; ++i) {
+      if (b.unstable.size() == 1 && b.high - b.low < 1e-2 * b.high) break;
+      const double middle = 0.5 * (b.low + b.high);
+      std::vector<Wave> still = unstable_of(path, middle, b.unstable);
+      if (still.empty()) {
+        b.low = middle;
+      } else {
+        b.high = middle;
+        b.unstable = std::move(still);
+      }
+    }
+  };
+  narrow(bracket);
+
+  // waves in other directions that grow even before
+  if (!shear && problem.every_wave_direction) {
+    std::vector<Wave> earlier = unstable_of(path, bracket.low, others);
+    if (!earlier.empty()) {
+      bracket.high = bracket.low;
+      bracket.low = 0;
+      bracket.unstable = std::move(earlier);
+      narrow(bracket);
+    }
+  }
+  const Wave first = bracket.unstable[bracket.unstable.size() / 2];
+  const double shortest = ks.back();
+  const bool one_length = ks.size() == 1;
+  const bool short_first = !one_length && bracket.unstable.back().k >= shortest * (1 - 1e-12) &&
+                           bracket.unstable.back().angle == first.angle;
+  const bool long_first = !one_length && bracket.unstable.front().k <= ks.front() * (1 + 1e-12);
+  wrinkle.wave_angle = first.angle;
+  wrinkle.kind = Wrinkle::Kind::wavy;
+  if (long_first) wrinkle.kind = Wrinkle::Kind::buckling;
+  if (one_length || short_first) wrinkle.kind = Wrinkle::Kind::surface;
+  const bool any_wavelength = wrinkle.kind != Wrinkle::Kind::wavy;
+  const double from = std::max(0.0, bracket.low - 0.02 * bracket.high);
+  const double to = bracket.high * 1.02;
+  double k0 = first.k;
+  if (short_first) k0 = shortest;
+  if (long_first) k0 = ks.front();
+
+  const auto along = [&](double wave_angle, int refine) {
+    return smallest_over_k(path, wave_angle, k0, from, to, refine, any_wavelength);
+  };
+  // the direction of k, where it is not that of the compression by symmetry
+  if (first.angle != angle || shear) {
+    const auto [best, t] = golden(first.angle - 0.27, first.angle + 0.27, 1e-4,
+                                  [&](double wave_angle) { return along(wave_angle, 1).t; });
+    wrinkle.wave_angle = best;
+  }
+  const Optimum coarse = along(wrinkle.wave_angle, 1);
+  const Optimum fine = along(wrinkle.wave_angle, 2);
+  const double t = fine.t + (fine.t - coarse.t) / 15;
+  wrinkle.s = path.s(t);
+  wrinkle.error = std::abs(wrinkle.s - path.s(fine.t)) / wrinkle.s;
+  if (any_wavelength) return wrinkle;
+  const double k = fine.k + (fine.k - coarse.k) / 15;
+  wrinkle.wavelength = 2 * pi / k;
+  // k as a covector of the prestretched plane: F^T k
+  const PlaneDeformation relative =
+      problem.deformation(angle, wrinkle.s) * problem.prestretch.inverse();
+  const Vec2 k_now = k * Vec2(std::cos(wrinkle.wave_angle), std::sin(wrinkle.wave_angle));
+  wrinkle.wavelength_before = 2 * pi / (relative.transpose() * k_now).norm();
+  return wrinkle;
+}
+
+}  // namespace langer
