@@ -309,6 +309,25 @@ void StepJournal::replay(const Accept& accept) {
   std::erase_if(earlier_, has_no_steps);
 }
 
+StepFollower::StepFollower(const std::string& output) : path_(output + ".steps") {}
+
+std::vector<StepRecord> StepFollower::more(bool& anew) {
+  std::vector<StepRecord> steps;
+  anew = false;
+  if (!journal_ || journal_->replaced()) {
+    std::error_code none;
+    if (!std::filesystem::exists(path_, none)) return steps;
+    anew = true;
+    journal_ = std::make_unique<Journal>(path_, Journal::ReadOnly{});
+  }
+  while (const std::optional<std::string> record = journal_->next()) {
+    if (record->empty() || record->front() != step_record) continue;
+    if (const auto step = unpacked_step(std::string_view(*record).substr(1)))
+      steps.push_back(*step);
+  }
+  return steps;
+}
+
 void StepJournal::append(const StepRecord& record) { journal_.append(packed(record)); }
 
 void discard_steps(const std::string& output) {
