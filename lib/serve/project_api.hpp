@@ -20,6 +20,7 @@
 #include <mutex>
 #include <string>
 
+#include "core/config/tree.hpp"
 #include "serve/folder.hpp"
 #include "serve/http/http_interface.hpp"
 #include "serve/run_watcher.hpp"

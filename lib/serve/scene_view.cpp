@@ -1,5 +1,6 @@
 #include "serve/scene_view.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -126,6 +127,19 @@ void add(std::vector<float>& to, const Vec3& x) {
   for (double c : x) to.push_back(static_cast<float>(c));
 }
 
+// Whether a facet belongs to a set of nodes. The sets of a section have the nodes of its plane z = 0,
+// those behind follow them.
+bool covers(const Mesh& mesh, const std::vector<bool>& in, const std::array<int, 4>& corners) {
+  bool behind = false;
+  for (const int n : corners) {
+    if (mesh.section && std::abs(mesh.X[n][2]) > 1e-12)
+      behind = true;
+    else if (!in[static_cast<std::size_t>(n)])
+      return false;
+  }
+  return behind || !mesh.section;
+}
+
 Json sets_view(const Mesh& mesh, const Skin& skin) {
   std::vector<Json> sets;
   for (const auto& [name, nodes] : mesh.node_sets) {
@@ -133,9 +147,7 @@ Json sets_view(const Mesh& mesh, const Skin& skin) {
     for (int node : nodes) in[static_cast<std::size_t>(node)] = true;
     std::vector<std::int32_t> facets;
     for (std::size_t f = 0; f < skin.facets.size(); ++f) {
-      const auto& corners = skin.facets[f];
-      if (std::ranges::all_of(corners, [&](int n) { return in[static_cast<std::size_t>(n)]; }))
-        facets.push_back(static_cast<std::int32_t>(f));
+      if (covers(mesh, in, skin.facets[f])) facets.push_back(static_cast<std::int32_t>(f));
     }
     std::vector<float> points;
     const std::size_t every = std::max<std::size_t>(1, nodes.size() / most_points);
@@ -161,7 +173,7 @@ Json indenters_view(const Scene& scene, const Mesh& mesh) {
       for (std::size_t k = 2; k < face.size(); ++k)
         triangles.insert(triangles.end(), {face[0], face[k - 1], face[k]});
     const Json motion = list(contact.motion, [](const Waypoint& point) {
-      return numbers({point.t, point.value[0], point.value[1], point.value[2]});
+      return numbers({point.t, point.to[0], point.to[1], point.to[2]});
     });
     return object({{"name", words(contact.name)},
                    {"points", packed(points)},
