@@ -1,12 +1,12 @@
 #include "serve/serve.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/base/interrupt.hpp"
 #include "core/base/say.hpp"
 #include "serve/child.hpp"
 #include "serve/folder.hpp"
@@ -16,6 +16,9 @@
 namespace langer {
 
 namespace {
+
+volatile std::sig_atomic_t signal_came = 0;
+void note_end(int) { signal_came = 1; }
 
 // 128 bits of the operating system.
 std::string random_token() {
@@ -86,9 +89,9 @@ int serve(const std::string& folder, int port) {
   const http::Functions& server = http::load();
   const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
   prepare_environment(bin);
-  const Interruptible signals_are_noted;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, note_end);
   const auto ends = [] {
-    return interrupted() != 0;
+    return signal_came != 0;
   };
   const ServedFolder served(folder);
   ProjectApi api(served, bin, ends);

@@ -40,17 +40,18 @@ const chart = new ProgressChart($('chart'));
 
 // ------------------------------------------------------------------ projects
 const showStart = state => {
+  const order = Object.keys(STARTERS), starters = state.starters.slice().sort((a, b) => (order.indexOf(a) + 99) % 99 - (order.indexOf(b) + 99) % 99);
   $('start').hidden = false;
   $('work').hidden = true;
   $('project-name').textContent = '';
-  $('where').textContent = `Its files are written into ${state.folder}.`;
-  $('starters').replaceChildren(...state.starters.map((name, i) => {
+  $('where').textContent = `The folder is made in ${state.folder}. Its files are plain text; make runs them without this page.`;
+  $('starters').replaceChildren(...starters.map((name, i) => {
     const [title, says] = STARTERS[name] || [inWords(name), ''];
     const radio = h('input', { type: 'radio', name: 'starter', value: name, onchange: () => { if (!app.named) $('new-name').value = free(name, state.projects); } });
     radio.checked = i === 0;
     return h('label', { class: 'starter' }, radio, h('b', {}, title), h('span', {}, says));
   }));
-  $('new-name').value = free(state.starters[0], state.projects);
+  $('new-name').value = free(starters[0], state.projects);
 };
 const free = (name, taken) => { let one = name; for (let i = 2; taken.includes(one); ++i) one = `${name}_${i}`; return one; };
 $('new-name').addEventListener('input', () => { app.named = true; });

@@ -103,7 +103,7 @@ const Yaml = {
   },
 };
 
-const inWords = key => { const w = key.replace(/_/g, ' '); return w.charAt(0).toUpperCase() + w.slice(1); };
+const inWords = key => { if (key.length === 1) return key; const w = key.replace(/_/g, ' '); return w.charAt(0).toUpperCase() + w.slice(1); };
 const atPath = (path, key) => path ? `${path}.${key}` : key;
 
 class Form {
@@ -184,7 +184,7 @@ class Form {
     const s = forms.find(f => Schema.fits(f, tree)) || forms[0];
     const label = title || (asWritten ? key : inWords(key));
     const [says, unit] = this.says(schema, s);
-    const remove = removable ? h('button', { type: 'button', class: 'quiet', 'aria-label': `Remove ${label}`, onclick: event => this.change(event.target, path, null) }, 'Remove') : null;
+    const remove = removable ? h('button', { type: 'button', class: 'quiet take', 'aria-label': `Remove ${label}`, onclick: event => this.change(event.target, path, null) }, 'Remove') : null;
     const t = Schema.type(s);
     const other = forms.filter(f => Schema.type(f) !== t && !(Schema.isNumber(f) && Schema.isNumber(s)) && ['object', 'array'].includes(Schema.type(f)) !== ['object', 'array'].includes(t))[0];
     const turn = other && !unknown ? h('button', { type: 'button', class: 'quiet', onclick: event => this.change(event.target, path, this.turned(tree, other)) },
