@@ -90,7 +90,10 @@ std::vector<Usage> table_of_commands() {
       command("langer serve",
               "Serves a page on this machine on which a scene is set up, checked, drawn, run and "
               "read, without writing YAML.",
-              {{"FOLDER", "", "a project, or a folder of projects; the current one by default", "/",
+              {{"FOLDER",
+                "",
+                "a project, or a folder of projects; the current one by default",
+                "/",
                 {}},
                {"--port", "N", "listen there; by default on a free port", "", {}},
                {"--scene", "", "print instead what the page draws of the project (JSON)", "", {}}},

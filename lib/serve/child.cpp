@@ -95,13 +95,10 @@ int run_child(const ChildCommand& command, const ChildOutput& output) {
   words.push_back(nullptr);
   const pid_t keeper = ::fork();
   if (keeper < 0)
-    throw Failure(Exit::input, Error{{command.words.front()},
-                                     "",
-                                     "cannot be started",
-                                     "",
-                                     std::strerror(errno)});
-  if (keeper == 0)
-    keep(words.data(), command.folder.c_str(), life.end[0], out.end[1], err.end[1]);
+    throw Failure(
+        Exit::input,
+        Error{{command.words.front()}, "", "cannot be started", "", std::strerror(errno)});
+  if (keeper == 0) keep(words.data(), command.folder.c_str(), life.end[0], out.end[1], err.end[1]);
   life.close_end(0);
   out.close_end(1);
   err.close_end(1);

@@ -25,7 +25,7 @@ class ServedFolder {
   // The functions below throw Failure(input) for a path that is refused or does not exist.
   std::string read(const std::string& relative, std::size_t largest) const;
   bool has_file(const std::string& relative) const;
-  bool has_folder(const std::string& relative) const;  // "" is the folder itself
+  bool has_folder(const std::string& relative) const;                   // "" is the folder itself
   std::vector<std::string> files(const std::string& relative) const;    // plain files, sorted
   std::vector<std::string> folders(const std::string& relative) const;  // without hidden ones
   void replace(const std::string& relative, const std::string& text) const;  // a file that exists

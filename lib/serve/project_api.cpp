@@ -66,7 +66,8 @@ Tree order_of(const Request& request) {
 
 std::string text_of(const Tree& order, const std::string& key) {
   const Tree* value = order.find(key);
-  if (!value || value->kind != Tree::Kind::scalar) refuse("the request", "has no text \"" + key + "\"");
+  if (!value || value->kind != Tree::Kind::scalar)
+    refuse("the request", "has no text \"" + key + "\"");
   return value->scalar;
 }
 std::string text_or_empty(const Tree& order, const std::string& key) {
@@ -120,9 +121,12 @@ Json tree_json(const Tree& tree) {
 
 const std::vector<std::pair<std::string, std::string>>& media_types() {
   static const std::vector<std::pair<std::string, std::string>> types = {
-      {".html", "text/html; charset=utf-8"}, {".svg", "image/svg+xml"},
-      {".png", "image/png"},                 {".csv", "text/plain; charset=utf-8"},
-      {".yaml", "text/plain; charset=utf-8"}, {".log", "text/plain; charset=utf-8"},
+      {".html", "text/html; charset=utf-8"},
+      {".svg", "image/svg+xml"},
+      {".png", "image/png"},
+      {".csv", "text/plain; charset=utf-8"},
+      {".yaml", "text/plain; charset=utf-8"},
+      {".log", "text/plain; charset=utf-8"},
       {".json", "application/json"}};
   return types;
 }
@@ -227,9 +231,9 @@ std::string ProjectApi::state(const std::string& project) const {
                  {"data", list(data, unchanged)},
                  {"nodes", list(nodes, unchanged)},
                  {"problem", words(wrong)},
-                 {"report", Json{folder_.has_file(below(project, "run/report/report.html"))
-                                     ? "true"
-                                     : "false"}}})
+                 {"report",
+                  Json{folder_.has_file(below(project, "run/report/report.html")) ? "true"
+                                                                                  : "false"}}})
       .text;
 }
 
@@ -306,9 +310,9 @@ void ProjectApi::upload(const Request& request) {
 // Messages in the words of the program, one for each error.
 std::string ProjectApi::check(const std::string& project) const {
   folder_.read(below(project, "pipeline.yaml"), largest_yaml);
-  const ChildResult result = run_child({{bin_ + "/langer", "check", "pipeline.yaml"},
-                                        folder_.absolute(project)},
-                                       longest_check, 1 << 20, ends_);
+  const ChildResult result =
+      run_child({{bin_ + "/langer", "check", "pipeline.yaml"}, folder_.absolute(project)},
+                longest_check, 1 << 20, ends_);
   std::string said = result.out + result.err;
   if (result.stopped) said += "the check took too long\n";
   return object({{"right", Json{result.code == 0 ? "true" : "false"}}, {"said", words(said)}}).text;
@@ -317,9 +321,9 @@ std::string ProjectApi::check(const std::string& project) const {
 // In a process of its own: a body may take all the memory, and a file may be hostile.
 std::string ProjectApi::scene(const std::string& project) const {
   folder_.read(below(project, "pipeline.yaml"), largest_yaml);
-  const ChildResult result = run_child({{bin_ + "/langer", "serve", ".", "--scene"},
-                                        folder_.absolute(project)},
-                                       longest_scene, largest_scene, ends_);
+  const ChildResult result =
+      run_child({{bin_ + "/langer", "serve", ".", "--scene"}, folder_.absolute(project)},
+                longest_scene, largest_scene, ends_);
   const bool drawn = result.code == 0 && !result.stopped;
   std::string said = result.err;
   if (result.stopped) said += "this scene took too long\n";

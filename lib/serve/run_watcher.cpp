@@ -148,10 +148,9 @@ int RunWatcher::work(const std::string& project) {
   const int planned = command({bin_ + "/langer-plan", "pipeline.yaml", "-o", "run"}, project);
   if (planned != 0) return planned;
   folder_.read(run + "/Makefile", 10'000'000);  // throws if it is a link
-  const std::string jobs =
-      fmt::format("-j{}", std::max(1u, std::thread::hardware_concurrency()));
-  const int made = command(
-      {"make", "--no-print-directory", "-f", "Makefile", "-C", "run", jobs}, project);
+  const std::string jobs = fmt::format("-j{}", std::max(1u, std::thread::hardware_concurrency()));
+  const int made =
+      command({"make", "--no-print-directory", "-f", "Makefile", "-C", "run", jobs}, project);
   follow();
   return made;
 }

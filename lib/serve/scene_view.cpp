@@ -102,8 +102,8 @@ Skin skin_of(const Mesh& mesh) {
   const Mesh simple = between_nodes(mesh);
   const int parts = simple.n_cells() / mesh.n_cells();
   Skin skin;
-  skin.facets = outer_surface(
-      simple, std::vector<bool>(static_cast<std::size_t>(simple.n_cells()), true));
+  skin.facets =
+      outer_surface(simple, std::vector<bool>(static_cast<std::size_t>(simple.n_cells()), true));
   std::map<std::array<int, 4>, int> cells;
   for (int e = 0; e < simple.n_cells(); ++e)
     for (const auto& local : Hex8::facet) {
@@ -127,8 +127,8 @@ void add(std::vector<float>& to, const Vec3& x) {
   for (double c : x) to.push_back(static_cast<float>(c));
 }
 
-// Whether a facet belongs to a set of nodes. The sets of a section have the nodes of its plane z = 0,
-// those behind follow them.
+// Whether a facet belongs to a set of nodes. The sets of a section have the nodes of its plane z =
+// 0, those behind follow them.
 bool covers(const Mesh& mesh, const std::vector<bool>& in, const std::array<int, 4>& corners) {
   bool behind = false;
   for (const int n : corners) {

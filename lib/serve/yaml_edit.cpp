@@ -72,8 +72,9 @@ class Editor {
   std::vector<std::size_t> lines_;  // the first byte of each line
 
   [[noreturn]] void refuse(const std::string& why) const {
-    throw Failure(Exit::config, Error{{file_}, "", "this part cannot be edited here: " + why, "",
-                                      "edit the file itself"});
+    throw Failure(
+        Exit::config,
+        Error{{file_}, "", "this part cannot be edited here: " + why, "", "edit the file itself"});
   }
 
   static const Tree* find(const Tree& parent, const PathStep& step) {
@@ -96,7 +97,9 @@ class Editor {
     const std::size_t before = at == 0 ? std::string::npos : text_.rfind('\n', at - 1);
     return before == std::string::npos ? 0 : before + 1;
   }
-  std::size_t line_end(std::size_t at) const { return std::min(text_.find('\n', at), text_.size()); }
+  std::size_t line_end(std::size_t at) const {
+    return std::min(text_.find('\n', at), text_.size());
+  }
   char at(std::size_t i) const { return i < text_.size() ? text_[i] : '\n'; }
 
   // Past spaces, line breaks and comments.
@@ -225,8 +228,8 @@ class Editor {
         end = behind_plain(begin, flow);
       return {begin, end};
     }
-    return {begin, behind_block(begin, column, child.kind == Tree::Kind::list &&
-                                                   parent.kind == Tree::Kind::map)};
+    return {begin, behind_block(begin, column,
+                                child.kind == Tree::Kind::list && parent.kind == Tree::Kind::map)};
   }
 
   // The end of the last line with content that is indented more than `column` (or a dash there).
@@ -270,7 +273,9 @@ class Editor {
     return text_.substr(0, begin) + value + text_.substr(range.end);
   }
   // Behind the last letter of a line that is no comment.
-  std::size_t behind_content(std::size_t line) const { return behind_plain(skip_spaces(line), false); }
+  std::size_t behind_content(std::size_t line) const {
+    return behind_plain(skip_spaces(line), false);
+  }
 
   static std::string entry(const PathStep& step, const std::string& value) {
     if (step.key.empty()) return value;
@@ -312,8 +317,8 @@ class Editor {
     std::size_t end = range.end;
     if (&parent == &root_) end = behind_block(range.begin, -1, false);
     end = line_end(end);
-    const std::string line = std::string(static_cast<std::size_t>(indent), ' ') +
-                             (list ? "- " : "") + text;
+    const std::string line =
+        std::string(static_cast<std::size_t>(indent), ' ') + (list ? "- " : "") + text;
     return text_.substr(0, end) + "\n" + line + text_.substr(end);
   }
 
@@ -368,8 +373,7 @@ class Editor {
       const std::size_t next = offset(parent.map[1].value.place);
       return text_.substr(0, place) + text_.substr(next);
     }
-    if (parent.kind == Tree::Kind::list &&
-        before.find_first_not_of(" ") != before.find('-'))
+    if (parent.kind == Tree::Kind::list && before.find_first_not_of(" ") != before.find('-'))
       refuse("its list has an unusual form");
     (void)step;
     return text_.substr(0, line) + text_.substr(std::min(end + 1, text_.size()));

@@ -31,8 +31,8 @@ class Journal {
   std::optional<std::string> next();  // the next record; nothing after the last complete one
   void put_back();                    // the record just read, and all after it, will be discarded
   bool replaced() const;  // the name belongs to another file now, or this one was begun anew
-  bool at_end() const;                // nothing follows the last record read: none was damaged
-  void clear();                       // removes all records
+  bool at_end() const;    // nothing follows the last record read: none was damaged
+  void clear();           // removes all records
   // Appends after the last record read or appended; anything after that is cut off. Throws
   // Failure(input) if the disk is full, and leaves the file unchanged. The record is on the disk at
   // once, or within a second if records follow each other more quickly.
