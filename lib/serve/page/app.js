@@ -6,7 +6,7 @@ const STARTERS = {
   tension: ['Tension', 'A strip is pulled: stress over strain, force.'],
   suction: ['Suction', 'Skin is sucked into the hole of a plate, as by a Cutometer.'],
   twist: ['Twist', 'A disc glued to the skin is turned, as that of a torque meter.'],
-  fit: ['Fit', 'The parameters of a law from tensile curves of your own, and what the curves do not tell.'],
+  fit: ['Fit', 'The parameters of a law from tensile curves of your own, and which of them the curves do not determine.'],
   sweep: ['Sweep', 'The same test at several fibre angles and frictions: one table of all runs.'],
 };
 const KINDS = {
