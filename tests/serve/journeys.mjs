@@ -121,6 +121,10 @@ const journeys = {
     await look('scene');
     await run(name, /N/);
     await look('done');
+    await page.locator('#report').scrollIntoViewIfNeeded();
+    await page.evaluate(() => document.querySelector('#report').scrollIntoView());
+    await page.waitForTimeout(1500);
+    await picture('report_1400', false);
   },
   async tension(name) {
     await create('tension', name);
@@ -142,6 +146,7 @@ const journeys = {
     await create('twist', name, true);
     await tabTo('[role=tab][aria-selected=true]');
     while (!(await page.evaluate(() => /Scene/.test(document.activeElement.textContent)))) { await page.keyboard.press('ArrowRight'); await page.waitForTimeout(150); }
+    await field('loads[0].rotation.angle').waitFor();
     await tabTo('[data-path="loads[0].rotation.angle"]');
     await page.keyboard.press('Control+A');
     await page.keyboard.type('10');

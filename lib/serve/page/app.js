@@ -42,7 +42,8 @@ const chart = new ProgressChart($('chart'));
 const showStart = state => {
   const order = Object.keys(STARTERS), starters = state.starters.slice().sort((a, b) => (order.indexOf(a) + 99) % 99 - (order.indexOf(b) + 99) % 99);
   $('start').hidden = false;
-  $('work').hidden = true;
+  $('work').hidden = $('jump').hidden = true;
+  $('footer').hidden = true;
   $('project-name').textContent = '';
   $('where').textContent = `The folder is made in ${state.folder}. Its files are plain text; make runs them without this page.`;
   $('starters').replaceChildren(...starters.map((name, i) => {
@@ -83,7 +84,7 @@ const start = async () => {
   clearInterval(app.timer);
   if (project === null || !state.here) return showStart(state);
   $('start').hidden = true;
-  $('work').hidden = false;
+  $('work').hidden = $('jump').hidden = false;
   $('report').hidden = true;
   chart.clear();
   $('log').textContent = '';
@@ -101,6 +102,16 @@ const start = async () => {
   if (state.report) showReport();
 };
 addEventListener('hashchange', start);
+// the address keeps the project; links within the page only scroll
+for (const link of document.querySelectorAll('#jump a, .skip'))
+  link.addEventListener('click', event => {
+    event.preventDefault();
+    const part = document.querySelector(link.getAttribute('href'));
+    if (part.hidden) return;
+    part.setAttribute('tabindex', '-1');
+    part.focus({ preventScroll: true });
+    part.scrollIntoView();
+  });
 
 // ------------------------------------------------------------------ files
 const readFiles = async state => {
@@ -108,7 +119,7 @@ const readFiles = async state => {
   app.kinds = Object.fromEntries(found.map(([file, f]) => [file, f.kind || file.replace(/\.yaml$/, '')]));
   app.trees = Object.fromEntries(found.map(([file, f]) => [file, f.tree]));
   app.files = state.files.slice().sort((a, b) => (ORDER.indexOf(app.kinds[a]) + 99) % 99 - (ORDER.indexOf(app.kinds[b]) + 99) % 99);
-  $('known-files').replaceChildren(...state.data.filter(n => n !== 'Makefile').map(value => h('option', { value })));
+  $('known-files').replaceChildren(...[...state.data, ...state.files].filter(n => n !== 'Makefile').map(value => h('option', { value })));
   tabs();
 };
 const title = file => { const t = (KINDS[app.kinds[file]] || [inWords(file.replace(/\.yaml$/, ''))])[0]; return app.files.filter(f => app.kinds[f] === app.kinds[file]).length > 1 ? `${t} (${file})` : t; };

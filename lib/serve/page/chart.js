@@ -18,8 +18,8 @@ const niceTicks = (a, b, n) => {
 
 class ProgressChart {
   constructor(place) {
-    this.x = h('select', { id: 'chart-x', onchange: () => this.draw() });
-    this.y = h('select', { id: 'chart-y', onchange: () => this.draw() });
+    this.x = h('select', { id: 'chart-x', onchange: () => { this.chosen = true; this.draw(); } });
+    this.y = h('select', { id: 'chart-y', onchange: () => { this.chosen = true; this.draw(); } });
     this.picture = h('div');
     this.tools = h('div', { class: 'chart-tools' }, h('label', {}, 'upwards ', this.y), h('label', {}, 'across ', this.x));
     this.says = h('p', { class: 'soft', 'aria-live': 'off' });
@@ -45,7 +45,6 @@ class ProgressChart {
     if (!this.chosen || !keys.includes(x) || !keys.includes(y)) {
       const still = all.every(s => s.travel.length < 2 || Math.abs(s.travel[s.travel.length - 1] - s.travel[s.travel.length >> 1]) < 1e-9 * Math.abs(s.travel[0] || 1));
       [x, y] = moves('torque') ? ['angle', 'torque'] : moves('force') && !still ? ['travel', 'force'] : ['t', moves('largest') ? 'largest' : 'force'];
-      this.chosen = all.some(s => s.t.length > 2);
     }
     options(this.x, x);
     options(this.y, y);

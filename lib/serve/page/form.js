@@ -54,6 +54,23 @@ const Schema = {
     if (tree.kind === 'scalar') return t !== 'object' && t !== 'array';
     return true;
   },
+  // The form that a value of the file has; of several maps the one that knows most of its keys.
+  best(forms, tree) {
+    const rate = f => (tree.entries || []).reduce((n, e) => n + ((f.properties || {})[e.key] ? 1 : -2), 0);
+    const fitting = forms.filter(f => Schema.fits(f, tree));
+    return fitting.sort((a, b) => rate(b) - rate(a))[0] || (tree.kind === 'map' || tree.kind === 'list' ? {} : forms[0]);
+  },
+  // With the part that another key chooses: "if stage is solve, then ...".
+  chosen(s, root, tree) {
+    for (const rule of s.allOf || []) {
+      const [[key, is]] = Object.entries((rule.if || {}).properties || { '': {} });
+      const entry = (tree.entries || []).find(e => e.key === key);
+      if (!entry || is.const === undefined || entry.value.text !== String(is.const)) continue;
+      const then = Schema.plain(rule.then, root);
+      return { ...s, ...then, properties: { ...then.properties, [key]: s.properties[key] } };
+    }
+    return s;
+  },
   // What a new part begins with, as YAML in one line.
   begin(schema, root, key = '', depth = 0) {
     const s = Schema.forms(schema, root)[0];
@@ -134,7 +151,8 @@ class Form {
   }
 
   // The keys of a map: those that are there, then those that may be added.
-  object(tree, s, path, out) {
+  object(tree, schema, path, out) {
+    const s = Schema.chosen(schema, this.root, tree);
     if (Schema.isNamed(s)) return this.named(tree, s, path, out);
     const entries = tree.kind === 'map' ? tree.entries : [];
     if (Schema.isChoice(s) && path) this.choice(entries, s, path, out);
@@ -181,7 +199,7 @@ class Form {
   // One value: a line with a control, or a part that folds.
   value(tree, schema, path, key, out, { removable = false, asWritten = false, unknown = false, title = '' } = {}) {
     const forms = Schema.forms(schema, this.root);
-    const s = forms.find(f => Schema.fits(f, tree)) || forms[0];
+    const s = Schema.best(forms, tree);
     const label = title || (asWritten ? key : inWords(key));
     const [says, unit] = this.says(schema, s);
     const remove = removable ? h('button', { type: 'button', class: 'quiet take', 'aria-label': `Remove ${label}`, onclick: event => this.change(event.target, path, null) }, 'Remove') : null;
@@ -189,7 +207,7 @@ class Form {
     const other = forms.filter(f => Schema.type(f) !== t && !(Schema.isNumber(f) && Schema.isNumber(s)) && ['object', 'array'].includes(Schema.type(f)) !== ['object', 'array'].includes(t))[0];
     const turn = other && !unknown ? h('button', { type: 'button', class: 'quiet', onclick: event => this.change(event.target, path, this.turned(tree, other)) },
       Schema.type(other) === 'array' ? 'As a history or list' : Schema.type(other) === 'object' ? 'More detail' : 'As one value') : null;
-    const control = unknown ? this.raw(tree, path) : this.control(tree, s, path, key);
+    const control = this.control(tree, s, path, key);
     if (control) {
       const id = control.id || this.id();
       if (!control.group) control.elements[0].id = id;
@@ -197,7 +215,7 @@ class Form {
       return;
     }
     const inside = [], where = tree.kind === 'null' ? { ...tree, kind: t === 'array' ? 'list' : 'map', items: [], entries: [] } : tree;
-    if (t === 'array') this.list(where, s, path, label, inside);
+    if (t === 'array' || where.kind === 'list') this.list(where, s, path, label, inside);
     else this.object(where, s, path, inside);
     if (turn) inside.push(turn);
     const fold = h('details', { class: 'part', 'data-place': `${tree.line}:${tree.column}`, open: !this.closed.has(this.file + path), ontoggle: () => this.closed[fold.open ? 'delete' : 'add'](this.file + path) },
@@ -236,6 +254,7 @@ class Form {
   control(tree, s, path, key) {
     const t = Schema.type(s), text = tree.kind === 'scalar' ? tree.text : '';
     if (tree.kind === 'map' || t === 'object') return null;
+    if (tree.kind === 'list' && t !== 'array') return tree.items.every(i => i.kind === 'scalar') ? this.words(tree.items, path) : null;
     if (t === 'array') {
       const item = Schema.forms(s.items || {}, this.root)[0], it = Schema.type(item);
       const items = tree.kind === 'list' ? tree.items : [];
@@ -245,7 +264,6 @@ class Form {
       if (it === 'object' || it === 'array') return null;
       return this.words(items, path);
     }
-    if (tree.kind === 'list') return null;
     if (t === 'enum') {
       const all = s.enum.map(String), known = all.includes(text);
       const select = h('select', { 'data-path': path, onchange: () => this.change(select, path, Yaml.text(select.value)) },
@@ -258,7 +276,7 @@ class Form {
       return { elements: [box] };
     }
     const numeric = Schema.isNumber(s);
-    const lists = { on: 'known-sets', of: 'known-sets', at: 'known-sets', file: 'known-files' };
+    const lists = { config: 'known-files', on: 'known-sets', of: 'known-sets', at: 'known-sets', file: 'known-files' };
     const input = h('input', { type: 'text', 'data-path': path, value: text, inputmode: numeric ? 'decimal' : undefined, class: numeric ? undefined : 'wide', list: numeric ? undefined : lists[key], autocomplete: 'off', spellcheck: 'false',
       onchange: () => this.change(input, path, this.typed(input.value, numeric, tree)) });
     return { elements: [input] };
@@ -267,10 +285,6 @@ class Form {
     const v = value.trim().replace(/^([-+]?\d+),(\d+)$/, '$1.$2').replace(/^\u2212/, '-');
     if (!numeric && tree.quoted) return JSON.stringify(v);
     return v === '' ? '""' : Yaml.text(v);
-  }
-  raw(tree, path) {
-    const input = h('input', { type: 'text', class: 'wide', readonly: true, 'data-path': path, value: Yaml.line(tree) });
-    return { elements: [input] };
   }
   axes(items, n, path) {
     const names = n === 3 ? ['x', 'y', 'z'] : Array.from({ length: n }, (_, i) => String(i + 1));
@@ -330,7 +344,7 @@ class Form {
     for (const p of problems) {
       const c = this.find(p);
       if (!c) continue;
-      c.problem.textContent += (c.problem.textContent ? '\n' : '') + p.text;
+      c.problem.textContent += (c.problem.textContent ? '\n' : '') + (p.key ? p.text.slice(p.key.length + 2) : p.text);
       if (c.focus && c.focus.tagName !== 'SUMMARY') c.focus.setAttribute('aria-invalid', 'true');
     }
   }

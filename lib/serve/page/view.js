@@ -109,7 +109,7 @@ class SceneView {
     this.build();
     const box = [0, 1, 2].map(k => [this.box.min, this.box.max].map(v => v.getComponent(k).toPrecision(6)).join());
     const was = before && [0, 1, 2].map(k => [before.min, before.max].map(v => v.getComponent(k).toPrecision(6)).join());
-    if (!was || box.join() !== was.join()) this.look([0.62, 0.62, 1]);
+    if (!was || box.join() !== was.join()) this.look(data.section ? [0, 0, 1] : [0.62, 0.62, 1]);
     const n = v => +v.toPrecision(4);
     const size = [0, 1, 2].map(k => n(this.box.max.getComponent(k) - this.box.min.getComponent(k))).join(' by ');
     const words = [`Body of ${data.cells} cells, ${size} mm`];
@@ -145,7 +145,7 @@ class SceneView {
     const body = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: vertex, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     const edges = new THREE.BufferGeometry();
     edges.setAttribute('position', new THREE.BufferAttribute(lines, 3));
-    this.edges = new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ color: dark() ? 0x0d1117 : 0x5b4636, transparent: true, opacity: 0.35 }));
+    this.edges = new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ color: dark() ? 0x0d1117 : 0x5b4636, transparent: true, opacity: n > 2500 ? 0.15 : 0.35 }));
     this.fibreLines = new THREE.Group();
     const length = 0.016 * this.size;
     this.data.fibres.forEach((family, k) => {
