@@ -125,6 +125,9 @@ const journeys = {
     await page.evaluate(() => document.querySelector('#report').scrollIntoView());
     await page.waitForTimeout(1500);
     await picture('report_1400', false);
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.waitForTimeout(500);
+    await picture('top_1400', false);
   },
   async tension(name) {
     await create('tension', name);

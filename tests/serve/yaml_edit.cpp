@@ -108,6 +108,14 @@ TEST_CASE("what is removed takes its line or its comma with it") {
              "supports: []                 # what is held"));
 }
 
+TEST_CASE("letters of other languages and line ends of Windows keep their place") {
+  CHECK(edit_yaml("a: \u00e4 # \u00fc\nb: {c: \u00e9\u00e9, d: 2, e: \u00f1}\n", "x", "b.d", "3") ==
+        "a: \u00e4 # \u00fc\nb: {c: \u00e9\u00e9, d: 3, e: \u00f1}\n");
+  CHECK(edit_yaml("a: 1\r\nb:\r\n  c: 2 # x\r\nd: 4\r\n", "x", "b.c", "3") ==
+        "a: 1\r\nb:\r\n  c: 3 # x\r\nd: 4\r\n");
+  CHECK(edit_yaml("a: 1\r\nb: 2\r\n", "x", "a", {}) == "b: 2\r\n");
+}
+
 TEST_CASE("what cannot be edited safely is refused, and nothing else is ever changed") {
   CHECK(example::holds(refused("a: &x 1\nb: *x\n", "b", "2"), "anchor"));
   CHECK(example::holds(refused("a: |\n  text\n", "a", "2"), "several lines"));

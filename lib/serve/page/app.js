@@ -315,7 +315,10 @@ const watch = async first => {
     }
     if (!runs) {
       clearInterval(app.timer);
-      if (p.state === 'done') showReport();
+      if (p.state === 'done') {
+        showReport();
+        if (!first) refresh();  // the law may have been fitted
+      }
     }
   };
   await look();

@@ -64,7 +64,7 @@ class ProgressChart {
     picture.append(svg('path', { class: 'axis', d: `M${left},${top}V${H - bottom}H${W - right}` }), svg('text', { x: (left + W - right) / 2, y: H - 8, 'text-anchor': 'middle' }, named(X)),
       svg('text', { transform: `translate(15,${(top + H - bottom) / 2}) rotate(-90)`, 'text-anchor': 'middle' }, named(Y)));
     curves.forEach((c, i) => {
-      const colour = CURVES[i % CURVES.length];
+      const colour = i === 0 && dark() ? '#58a6ff' : CURVES[i % CURVES.length];
       picture.append(svg('path', { d: 'M' + c.points.map(p => `${px(p[0]).toFixed(1)},${py(p[1]).toFixed(1)}`).join('L'), fill: 'none', stroke: colour, 'stroke-width': 2 }));
       c.points.slice(1).forEach(p => picture.append(svg('circle', { cx: px(p[0]).toFixed(1), cy: py(p[1]).toFixed(1), r: 2.6, fill: colour })));
     });

@@ -206,7 +206,7 @@ class Form {
     const t = Schema.type(s);
     const other = forms.filter(f => Schema.type(f) !== t && !(Schema.isNumber(f) && Schema.isNumber(s)) && ['object', 'array'].includes(Schema.type(f)) !== ['object', 'array'].includes(t))[0];
     const turn = other && !unknown ? h('button', { type: 'button', class: 'quiet', onclick: event => this.change(event.target, path, this.turned(tree, other)) },
-      Schema.type(other) === 'array' ? 'As a history or list' : Schema.type(other) === 'object' ? 'More detail' : 'As one value') : null;
+      Schema.type(other) === 'array' ? 'As a list' : Schema.type(other) === 'object' ? 'More detail' : 'As one value') : null;
     const control = this.control(tree, s, path, key);
     if (control) {
       const id = control.id || this.id();
@@ -325,7 +325,7 @@ class Form {
   }
   // Explanation and unit; the schema has the unit at the end, in brackets.
   says(schema, s) {
-    const words = Schema.plain(schema, this.root).description || s.description || '', m = /^(.*?)\s*\[([^\[\]]{1,12})\]$/.exec(words);
+    const words = Schema.plain(schema, this.root).description || s.description || '', m = /^(.*?)\s\[(?!\d+\])([^\[\]]{1,12})\]$/.exec(words);
     return m ? [m[1], m[2]] : [words, ''];
   }
   id() { return `f${++this.n}`; }
