@@ -21,7 +21,7 @@ options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=O
 run      = runs/$(basename $(notdir $(PIPELINE)))
 programs := $(patsubst langer-langer,langer,$(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp)))
 packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \
-  libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three
+  libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three libcpp-httplib-dev
 
 .NOTPARALLEL:
 .PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle wheel test-package test-bundle map schemas site clean help

@@ -1,4 +1,4 @@
-// langer show | new | check | describe | schema | explain | times | crate | doctor | man |
+// langer show | new | check | serve | describe | schema | explain | times | crate | doctor | man |
 // completion: commands that read files and configs but compute nothing.
 //
 // Each command has a page in the table of cli/manual.cpp. Its positional arguments and options are
@@ -20,6 +20,8 @@
 #include "pipeline/plan/run_files.hpp"
 #include "program.hpp"
 #include "results/post/describe_columns.hpp"
+#include "serve/scene_view.hpp"
+#include "serve/serve.hpp"
 
 namespace langer {
 namespace {
@@ -27,12 +29,13 @@ namespace {
 // The arguments of a command.
 struct Given {
   std::vector<std::string> places;  // positional arguments
-  std::string as, same_as;
+  std::string as, same_as, port;
   CrateWords crate;
   bool config = false;
   bool json = false;
   bool list = false;
   bool failed = false;
+  bool scene = false;
 };
 
 // Prints data and returns the exit code of success.
@@ -117,6 +120,25 @@ int crate(const Given& given) {
   return 0;
 }
 
+// `langer serve`: the set-up page of a folder, or with --scene what the page draws of it.
+int serve_folder(const Given& given) {
+  std::string folder = ".";
+  if (!given.places.empty()) folder = given.places[0];
+  if (given.scene) return print(scene_view(folder + "/pipeline.yaml", folder + "/run") + "\n");
+  int port = 0;
+  if (!given.port.empty()) {
+    const bool digits = given.port.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && given.port.size() < 6) port = std::stoi(given.port);
+    if (port < 1 || port > 65535)
+      throw Failure(Exit::config, Error{{"langer serve"},
+                                        "--port",
+                                        "found \"" + given.port + "\"",
+                                        "a number from 1 to 65535",
+                                        ""});
+  }
+  return serve(folder, port);
+}
+
 // `langer doctor`: exit code 3 if a needed program is missing.
 int doctor() {
   const std::vector<Finding> findings = examine();
@@ -159,11 +181,13 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
                                    {"--title", &given.crate.title},
                                    {"--author", &given.crate.author},
                                    {"--license", &given.crate.license},
+                                   {"--port", &given.port},
                                    {"--root", &given.crate.root}})
     if (usage.find(name)) options.text(name, *text);
   for (const auto& [name, flag] : {std::pair{"--config", &given.config},
                                    {"--failed", &given.failed},
                                    {"--list", &given.list},
+                                   {"--scene", &given.scene},
                                    {"--json", &given.json}})
     if (usage.find(name)) options.flag(name, *flag);
   int code = 0;
@@ -171,11 +195,13 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
   if (given.list) return print(fmt::format("{}\n", fmt::join(schema_kinds(), "\n")));
   std::optional<std::size_t> most = required;
   if (name == "new") most = 2;
+  if (name == "serve") most = 1;
   if (name == "show" || name == "check") most.reset();
   check_places(usage, given, required, most);
   if (name == "show") return show_files(given);
   if (name == "new") return new_project(given);
   if (name == "check") return check_files(given);
+  if (name == "serve") return serve_folder(given);
   if (name == "describe") return describe_kind(given);
   if (name == "schema") return print(schema_text(given.places[0]));
   if (name == "explain") return print(explain_text(explain(given.places[0])));

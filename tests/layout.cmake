@@ -16,7 +16,7 @@ set(rooms
   identification/inverse
   export report
   pipeline/sweep pipeline/plan
-  cli stages)
+  cli serve/http serve stages)
 
 # beginning of an include -> the only place where it may stand
 set(third_parties
@@ -25,7 +25,7 @@ set(third_parties
   "metis=lib/mechanics/linear/petsc/" "cholmod=lib/mechanics/linear/"
   "umfpack=lib/mechanics/linear/" "kinsol=lib/mechanics/nonlinear/kinsol.cpp"
   "sundials=lib/mechanics/nonlinear/kinsol.cpp" "nvector=lib/mechanics/nonlinear/kinsol.cpp"
-  "CLI/=stages/common/arguments.cpp" "nlopt=lib/identification/fit/"
+  "httplib=lib/serve/http/http_module.cpp" "CLI/=stages/common/arguments.cpp" "nlopt=lib/identification/fit/"
   "muParser=lib/core/config/formula.cpp"
   "boost/=lib/identification/sensitivity/sobol_sequence.cpp")
 set(failed FALSE)

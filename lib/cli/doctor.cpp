@@ -100,7 +100,7 @@ Finding programs(const fs::path& bin) {
       fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
 }
 
-// A library that is loaded at run time by a module of Langer (gmsh, PETSc). It may be missing
+// A library that is loaded at run time by a module of Langer (gmsh, PETSc, cpp-httplib). It may be missing
 // although the module is there; ldd shows that.
 Finding module(const std::string& name, const std::string& without, const std::string& package) {
   const std::string path = module_path(name);
@@ -159,7 +159,8 @@ std::vector<Finding> examine() {
              "solids from STEP and STL cannot be meshed; blocks, discs, .msh and .inp need no gmsh",
              "libgmsh4.8"),
       module("petsc", "bodies of more than 100 000 unknowns are factorized: more memory, more time",
-             "libpetsc-real3.18")};
+             "libpetsc-real3.18"),
+      module("http", "langer serve has no page", "libcpp-httplib0.11")};
   if (const std::string kernels = blas::kernels_line(); !kernels.empty())
     findings.push_back({"BLAS", true, false, kernels});
   if (report::has_three())

@@ -87,6 +87,17 @@ std::vector<Usage> table_of_commands() {
                 true},
                {"--as", "KIND", fmt::format("one of {}", list_words(kinds)), "", kinds}},
               "langer check pipelines/indentation.yaml configs/*/*.yaml"),
+      command("langer serve",
+              "Serves a page on this machine on which a scene is set up, checked, drawn, run and "
+              "read, without writing YAML.",
+              {{"FOLDER",
+                "",
+                "a project, or a folder of projects; the current one by default",
+                "/",
+                {}},
+               {"--port", "N", "listen there; by default on a free port", "", {}},
+               {"--scene", "", "print instead what the page draws of the project (JSON)", "", {}}},
+              "langer serve skin"),
       command("langer describe",
               "Prints every key of a config: type, range, unit, default, meaning; or every column: "
               "unit, sign, meaning.",

@@ -1,7 +1,7 @@
 // The parser: yaml-cpp's events, whose marks are exact, become trees; then includes are merged.
 #include "core/base/input_file.hpp"
 #include "core/base/text.hpp"
-#include "core/config/tree.hpp"
+#include "core/config/raw_yaml.hpp"
 #include "core/config/yaml_words.hpp"
 
 #include <fmt/format.h>
@@ -394,6 +394,11 @@ Tree parse_yaml(const std::string& text, const std::string& shown_name, const st
   Tree tree = parse(text, shown_name, base, open_files.n_parts);
   resolve_includes(tree, open_files);
   return tree;
+}
+
+Tree parse_yaml_as_written(const std::string& text, const std::string& shown_name) {
+  std::size_t n_parts = 0;
+  return parse(text, shown_name, "", n_parts);
 }
 
 }  // namespace langer

@@ -82,13 +82,23 @@ Journal::Journal(const std::string& path) : path_(path) {
     clear();
     return;
   }
-  // A file with another begin keeps end_ = 0: it has no records.
+  find_first();
+}
+
+Journal::Journal(const std::string& path, ReadOnly) : path_(path) {
+  fd_ = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd_ >= 0) find_first();
+}
+
+// A file with another begin keeps end_ = 0: it has no records.
+void Journal::find_first() {
   std::string begin(magic.size(), '\0');
   std::uint64_t seed = 0;
   if (read_at(fd_, 0, begin.data(), begin.size()) && begin == magic &&
       read_at(fd_, magic.size(), &seed, sizeof seed)) {
     end_ = header;
     chain_ = seed;
+    seed_ = seed;
   }
 }
 
@@ -112,6 +122,15 @@ std::optional<std::string> Journal::next() {
   end_before_ = std::exchange(end_, at + length + sizeof sum);
   chain_before_ = std::exchange(chain_, sum);
   return record;
+}
+
+bool Journal::replaced() const {
+  struct stat here {};
+  struct stat named {};
+  if (fd_ < 0 || ::fstat(fd_, &here) != 0 || ::lstat(path_.c_str(), &named) != 0) return true;
+  if (here.st_ino != named.st_ino || here.st_dev != named.st_dev) return true;
+  std::uint64_t seed = 0;
+  return end_ == 0 || !read_at(fd_, magic.size(), &seed, sizeof seed) || seed != seed_;
 }
 
 void Journal::put_back() {

@@ -20,14 +20,19 @@ class Journal {
   // Opens the file or creates an empty one. Throws Failure(input) if it cannot be written or if
   // another process has locked it.
   explicit Journal(const std::string& path);
+  // Only reads, while another process may write: next() gives a record as soon as it is complete.
+  // Neither locks nor creates the file, and follows no link; without one there are no records.
+  struct ReadOnly {};
+  Journal(const std::string& path, ReadOnly);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   std::optional<std::string> next();  // the next record; nothing after the last complete one
   void put_back();                    // the record just read, and all after it, will be discarded
-  bool at_end() const;                // nothing follows the last record read: none was damaged
-  void clear();                       // removes all records
+  bool replaced() const;  // the name belongs to another file now, or this one was begun anew
+  bool at_end() const;    // nothing follows the last record read: none was damaged
+  void clear();           // removes all records
   // Appends after the last record read or appended; anything after that is cut off. Throws
   // Failure(input) if the disk is full, and leaves the file unchanged. The record is on the disk at
   // once, or within a second if records follow each other more quickly.
@@ -36,12 +41,14 @@ class Journal {
   const std::string& path() const { return path_; }
 
  private:
+  void find_first();  // the position before the first record
   // Waits until the file is on the disk.
   void sync();
   std::string path_;
   int fd_ = -1;
   std::uint64_t end_ = 0;    // position after the last record read or appended
   std::uint64_t chain_ = 0;  // its checksum
+  std::uint64_t seed_ = 0;   // of the file when it was opened
   // The same one record earlier, for put_back().
   std::uint64_t end_before_ = 0, chain_before_ = 0;
   std::chrono::steady_clock::time_point synced_;

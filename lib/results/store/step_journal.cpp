@@ -309,6 +309,30 @@ void StepJournal::replay(const Accept& accept) {
   std::erase_if(earlier_, has_no_steps);
 }
 
+StepFollower::StepFollower(const std::string& output) : path_(output + ".steps") {}
+
+// What the old file still has is read first: a solve removes its journal when it has finished.
+std::vector<StepRecord> StepFollower::more(bool& anew) {
+  std::vector<StepRecord> steps;
+  anew = false;
+  const auto read_records = [&] {
+    while (const std::optional<std::string> record = journal_->next()) {
+      if (record->empty() || record->front() != step_record) continue;
+      if (const auto step = unpacked_step(std::string_view(*record).substr(1)))
+        steps.push_back(*step);
+    }
+  };
+  if (journal_) read_records();
+  std::error_code none;
+  const bool current = journal_ && !journal_->replaced();
+  if (current || !std::filesystem::exists(path_, none)) return steps;
+  anew = true;
+  steps.clear();
+  journal_ = std::make_unique<Journal>(path_, Journal::ReadOnly{});
+  read_records();
+  return steps;
+}
+
 void StepJournal::append(const StepRecord& record) { journal_.append(packed(record)); }
 
 void discard_steps(const std::string& output) {

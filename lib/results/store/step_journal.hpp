@@ -8,6 +8,7 @@
 // file.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,19 @@ class StepJournal {
   Journal journal_;
   std::string this_run_;
   std::vector<EarlierRun> earlier_;
+};
+
+// Follows the journal of a solve that another process computes.
+class StepFollower {
+ public:
+  explicit StepFollower(const std::string& output);
+  // The steps that have come since the last call. If the solve has begun anew, for example with
+  // finer cells, `anew` is set and they are those of the new beginning.
+  std::vector<StepRecord> more(bool& anew);
+
+ private:
+  std::string path_;
+  std::unique_ptr<Journal> journal_;
 };
 
 // Removes the kept steps of a solve whose model was replaced by another one.
