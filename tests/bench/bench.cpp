@@ -26,6 +26,7 @@ using namespace langer;
 void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
+void measure_candidates();
 void measure_wide();     // wide.cpp
 void measure_control();  // control.cpp
 void measure_inverse();  // inverse.cpp
@@ -203,6 +204,7 @@ int main(int argc, char** argv) {
   if (asked.count("ranks")) measure_ranks(skin);
   if (asked.count("wide")) measure_wide();
   if (asked.count("control")) measure_control();
+  if (asked.count("candidates")) measure_candidates();
   if (asked.count("grading")) {
     test::Indentation scene;
     scene.nx = scene.nz = 36, scene.ny = 12, scene.h = 0.2;

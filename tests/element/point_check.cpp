@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "mechanics/material/ellipticity.hpp"
@@ -29,6 +31,7 @@ TEST_CASE(
   std::uniform_real_distribution<double> uniform(-0.15, 0.15);
   double worst = 0;
   int lost = 0;
+  int spared = 0;
   for (const Material& material :
        {test::table1(0, 1e-6), test::stable(35, 1e-6), two, toe, general}) {
     const std::vector<Vec3> a = fibre_directions(material);
@@ -39,6 +42,17 @@ TEST_CASE(
           u.rightCols<2>() -= 0.25 * trial / 20 * X.rightCols<2>();
       PointCheck points;
       check_points(material, geometry, a, u, points);
+      // where only points below a limit are asked for, none of these is left out
+      for (double enough : {-0.1, 0., 0.05, 0.2}) {
+        PointCheck some;
+        check_points(material, geometry, a, u, some, enough);
+        for (int g = 0; g < 8; ++g) {
+          if (some.stiffness[g] == points.stiffness[g]) continue;
+          ++spared;
+          CHECK(some.stiffness[g] == std::numeric_limits<double>::max());
+          CHECK(points.stiffness[g] > std::max(enough, 0.));
+        }
+      }
       for (int g = 0; g < 8; ++g) {
         if (points.J[g] < 0.3) continue;
         CHECK(points.J[g] == near(points.F[g].determinant()));
@@ -57,4 +71,5 @@ TEST_CASE(
                                         << " points without strong ellipticity");
   CHECK(worst < 0.1);
   CHECK(lost > 5);
+  CHECK(spared > 100);
 }

@@ -102,3 +102,63 @@ TEST_CASE("Yeoh's column of Table 1 is unstable at rest") {
   const Material m{{Yeoh{-0.059, 0.291, 0.016}}, {}, {QuadraticVolume{1}}};
   CHECK(stiffness(m, Mat3::Identity()) == near(-0.118, 1e-13));
 }
+
+namespace {
+
+// laws with moduli of either sign, one or two families and terms of both invariants
+Material any_law(std::mt19937& rng) {
+  std::uniform_real_distribution<double> x(-1, 1);
+  Material m{{Yeoh{0.2 + 0.3 * x(rng), 0.3 * x(rng), 0.1 * x(rng)}}, {}, {QuadraticVolume{1}}};
+  if (x(rng) > 0) m.matrix.push_back(MooneyRivlin{0.1 * x(rng), 0.1 * x(rng)});
+  const int families = x(rng) > 0 ? 2 : 1;
+  for (int k = 0; k < families; ++k) {
+    Fibre fibre{HgoFibre{0.5 * x(rng), 1 + x(rng)}, 90 * x(rng)};
+    if (x(rng) > 0) fibre.kappa = 0.15 * (1 + x(rng));
+    m.fibres.push_back(fibre);
+  }
+  return m;
+}
+
+Mat3 any_state(std::mt19937& rng) {
+  std::uniform_real_distribution<double> x(-0.4, 0.4);
+  const Mat3 F = Mat3::Identity() + Mat3::NullaryExpr([&] { return x(rng); });
+  return F / std::cbrt(F.determinant());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "no wave of a dense grid is less stiff than the smallest stiffness, and one is nearly so") {
+  std::mt19937 rng(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    CAPTURE(trial);
+    const Material m = any_law(rng);
+    const Mat3 F = any_state(rng);
+    const auto a = fibre_directions(m);
+    const ShearStiffness s = smallest_shear_stiffness(m, F, a);
+    const double sampled = sampled_shear_stiffness(m, F, a, 10000);
+    CHECK(s.value <= sampled + 1e-12 * s.size);
+    // a normal of the grid is at most 0.03 from the best one; a stiffness is a form of degree four
+    // in the normal and the polarisation
+    CHECK(s.value >= sampled - 16 * 0.03 * 0.03 * s.size);
+  }
+}
+
+TEST_CASE("the sign of the smallest stiffness needs no smallest stiffness") {
+  std::mt19937 rng(11);
+  int positive = 0;
+  int negative = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    CAPTURE(trial);
+    const Material m = any_law(rng);
+    const Mat3 F = any_state(rng);
+    const auto a = fibre_directions(m);
+    const double value = smallest_shear_stiffness(m, F, a).value;
+    const double sign = sign_of_shear_stiffness(m, F, a);
+    CHECK(sign == (value > 0) - (value < 0));
+    positive += value > 0;
+    negative += value < 0;
+  }
+  CHECK(positive > 20);
+  CHECK(negative > 20);
+}

@@ -29,6 +29,7 @@ struct Indentation {
   bool extrapolate = true;
   bool quarter = false;     // x >= 0, z >= 0 with symmetry planes; the force is then a quarter
   bool loose_base = false;  // the bottom may glide in x
+  double lift = 0;          // of the bottom against the indenter [mm]
   ContactBy contact_by = ContactBy::by_cost;
   NewtonOptions newton;
   const Ranks* ranks = nullptr;         // that share the cells
@@ -68,7 +69,7 @@ struct Indentation {
     std::vector<Prescribed> held;
     for (int i : result.mesh.node_sets["y_min"])
       for (int k = 0; k < 3; ++k)
-        if (k > 0 || !loose_base) held.push_back({3 * i + k, 0});
+        if (k > 0 || !loose_base) held.push_back({3 * i + k, k == 1 ? lift : 0});
     if (quarter)
       for (const auto& [face, axis] : {std::pair{"x_min", 0}, {"z_min", 2}})
         for (int i : result.mesh.node_sets[face]) held.push_back({3 * i + axis, 0});

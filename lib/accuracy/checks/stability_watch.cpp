@@ -112,6 +112,22 @@ void StabilityWatch::resume(const StepRecord& last) {
   }
 }
 
+// The cells of the lowest points of the last step have that many points: the lowest of all are no
+// stiffer than the stiffest of these.
+double StabilityWatch::stiffest_of_lowest(const Assembler& body, const BodyState& state) const {
+  std::vector<double> stiffness;
+  PointCheck points;
+  for (const int e : lowest_cells_) {
+    if (e >= body.mesh().n_cells()) return INFINITY;  // of another mesh
+    check_points(body.material(e), body.geometry(e), body.fibres(e),
+                 body.element_displacements(state.u, e), points);
+    for (const double s : points.stiffness) stiffness.push_back(std::isfinite(s) ? s : -INFINITY);
+  }
+  if (stiffness.size() < refined) return INFINITY;
+  std::nth_element(stiffness.begin(), stiffness.begin() + refined - 1, stiffness.end());
+  return stiffness[refined - 1];
+}
+
 StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
   std::optional<Signature> signature;
   if (!signs_) signs_ = !statics.iterative();
@@ -133,10 +149,12 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
   std::vector<Low> lowest;
   double volume = 0;
   PointCheck points;
+  // No point stiffer than this is among the lowest.
+  double enough = stiffest_of_lowest(body, state);
   for (int e = 0; e < body.mesh().n_cells(); ++e) {
     const auto a = body.fibres(e);
     check_points(body.material(e), body.geometry(e), a, body.element_displacements(state.u, e),
-                 points);
+                 points, enough);
     double cell_volume = 0;
     const int n_gauss = body.geometry(e).n_gauss();
     for (int g = 0; g < n_gauss; ++g)
@@ -153,6 +171,7 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
       // A point whose acoustic tensor has a negative eigenvalue has lost strong ellipticity.
       if (s < 0) report.lost += w;
       keep_lowest(lowest, {s, e, g, points.F[g]});
+      if (lowest.size() == refined) enough = std::min(enough, lowest.front().stiffness);
       if (a.empty() && !study_.range) continue;
       const Mat3 F = points.F[g] / std::cbrt(points.J[g]);
       for (const Vec3& direction : a) {
@@ -172,6 +191,8 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
   report.lost /= volume;
   report.outside /= volume;
   std::sort(lowest.begin(), lowest.end(), lower);
+  lowest_cells_.clear();
+  for (const Low& point : lowest) lowest_cells_.insert(point.cell);
   report.stiffness = INFINITY;
   for (const Low& point : lowest) {
     const double s =

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,7 @@ class StabilityWatch {
   std::vector<Summary> summary() const;
 
  private:
+  double stiffest_of_lowest(const Assembler& body, const BodyState& state) const;
   // values of t of accepted steps, in runs without a gap
   struct Spans {
     std::vector<std::array<double, 2>> of;
@@ -86,6 +88,7 @@ class StabilityWatch {
   Reach reach_;
   double force_before_ = 0, t_before_ = -1;
   StabilityReport last_;
+  std::set<int> lowest_cells_;  // of the last step
   double volume_change_ = 0;
   Vec3 volume_place_ = Vec3::Zero();
   int most_negative_ = 0, steps_unstable_ = 0;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "identification/fit/imposed_states.hpp"
 #include "identification/fit/periodic.hpp"
 
 namespace langer {
@@ -45,6 +46,7 @@ struct Model {
   Dilatation dilatation;
   VecX stress, weight;
   TiedNumbers tied;
+  std::vector<std::optional<ImposedStates>> imposed;  // of each test, for the last fibres
 
   explicit Model(const FitProblem& problem)
       : material(problem.law),
@@ -54,8 +56,18 @@ struct Model {
         weight(weights(problem.tests)),
         tied(material, problem.ties) {
     for (const MaterialParameter& p : chosen(material, problem.free)) numbers.push_back(p.value);
+    imposed.resize(tests.size());
   }
   Model(const Model&) = delete;
+
+  bool stress_of(std::size_t test, double* result) {
+    std::optional<ImposedStates>& states = imposed[test];
+    const bool known = states && states->hold_for(material);
+    if (!known && dilatation == Dilatation::incompressible)
+      states = ImposedStates::of(material, tests[test]);
+    if (states) return states->stress(material, result);
+    return model_stress(material, tests[test], dilatation, result);
+  }
 
   bool residual(const VecX& p, VecX& r) {
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -63,9 +75,9 @@ struct Model {
     tied.follow();
     r.resize(stress.size());
     Eigen::Index at = 0;
-    for (const Test& test : tests) {
-      if (!model_stress(material, test, dilatation, r.data() + at)) return false;
-      at += static_cast<Eigen::Index>(test.values());
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+      if (!stress_of(k, r.data() + at)) return false;
+      at += static_cast<Eigen::Index>(tests[k].values());
     }
     r = weight.cwiseProduct(r - stress);
     return true;

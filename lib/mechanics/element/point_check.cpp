@@ -87,10 +87,36 @@ int terms(const Material& material, const P* F, const P& J, std::span<const Vec3
   return n;
 }
 
+// Whether all eight stiffnesses are above s by the bound from below; not where one has no number.
+bool surely_above(const Term* law, int n, const P* B, const P& J, double s) {
+  P M[6];  // 11 22 33 12 23 13
+  P size{};
+  for (int p = 0; p < 6; ++p) M[p] = B[p];
+  for (int k = 0; k < n; ++k) {
+    const P trace = law[k].h[0] + law[k].h[1] + law[k].h[2];
+    const P softer = where_not_negative(law[k].four_ddW, P(0.0), law[k].four_ddW * trace);
+    size += abs(law[k].four_ddW) * trace * trace;
+    for (int p = 0; p < 6; ++p) M[p] += softer * law[k].h[p];
+  }
+  for (int p = 0; p < 3; ++p) size += abs(B[p]);
+  const P diagonal = s * J + 1e-9 * size;  // far more than rounding
+  for (int p = 0; p < 3; ++p) M[p] -= diagonal;
+  const P minor = M[0] * M[1] - M[3] * M[3];
+  const P determinant =
+      M[2] * minor - M[0] * M[4] * M[4] - M[1] * M[5] * M[5] + 2.0 * M[3] * M[4] * M[5];
+  const auto positive = [](const P& x) {
+    bool all = true;
+    for (int l = 0; l < P::lanes; ++l) all = all && std::isgreater(x[l], 0);
+    return all;
+  };
+  return positive(M[0]) && positive(minor) && positive(determinant) &&
+         within(size, std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 
 void check_points(const Material& material, const ElementGeometry& geometry,
-                  std::span<const Vec3> a, const ElementNodes& u, PointCheck& out) {
+                  std::span<const Vec3> a, const ElementNodes& u, PointCheck& out, double enough) {
   const int n_gauss = geometry.n_gauss();
   out.F.resize(n_gauss);
   out.J.resize(n_gauss);
@@ -116,6 +142,12 @@ void check_points(const Material& material, const ElementGeometry& geometry,
     Term law[5];
     P B[6], least = std::numeric_limits<double>::infinity(), largest{};
     const int n = terms(material, F, J, a, law, B);
+    if (std::isless(enough, std::numeric_limits<double>::infinity()) &&
+        surely_above(law, n, B, J, std::max(enough, 0.))) {
+      for (int l = 0; l < P::lanes && first + l < n_gauss; ++l)
+        out.stiffness[first + l] = std::numeric_limits<double>::max();
+      continue;
+    }
     for (const Normal& normal : normals) {
       P aa{}, ab{}, bb{};
       for (int k = 0; k < n; ++k) {

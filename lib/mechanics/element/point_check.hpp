@@ -6,8 +6,13 @@
 // eps^2 n.h n. The minimum over the grid is an upper bound, too high by at most a few percent of
 // the spread of A; if the exact minimum matters, smallest_shear_stiffness() computes it. Materials
 // outside packet_form() are sampled by that function more coarsely, point by point.
+// Where only the lowest points are asked for, a bound from below spares most of the others the
+// grid:
+//   A J >= n.M n,   M = sum (2 W_k' + min(0, 4 W_k'' tr h_k)) h_k,   as (m.h n)^2 <= (m.h m) (n.h n)
+// so that M - s J 1 positive definite means A > s.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,7 +26,10 @@ struct PointCheck {
   std::vector<double> stiffness;  // [MPa]; NaN where the energy has no value
 };
 
+// enough: eight points that are all surely stiffer than this and than 0 [MPa] may get the largest
+// number instead of their stiffness
 void check_points(const Material& material, const ElementGeometry& geometry,
-                  std::span<const Vec3> a, const ElementNodes& u, PointCheck& out);
+                  std::span<const Vec3> a, const ElementNodes& u, PointCheck& out,
+                  double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace langer

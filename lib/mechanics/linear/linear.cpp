@@ -15,18 +15,33 @@ LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int th
   s.common.print = 0;
   s.common.supernodal = CHOLMOD_SUPERNODAL;
   s.common.final_ll = 1;
-  s.last = std::move(last);
-  s.place_of.assign(pattern.n, -1);
-  for (std::size_t i = 0; i < s.last.size(); ++i) s.place_of[s.last[i]] = static_cast<int>(i);
   s.A = cholmod_allocate_sparse(pattern.n, pattern.n, pattern.nnz(), 1, 1, -1, CHOLMOD_REAL,
                                 &s.common);
   if (!s.A) throw std::bad_alloc();
   std::copy(pattern.column_start.begin(), pattern.column_start.end(), static_cast<int*>(s.A->p));
   std::copy(pattern.row.begin(), pattern.row.end(), static_cast<int*>(s.A->i));
+  s.take_last(std::move(last));
   s.analyse();
 }
 
 LinearSolver::~LinearSolver() = default;
+
+void LinearSolver::State::take_last(std::vector<int> rows) {
+  last = std::move(rows);
+  place_of.assign(A->nrow, -1);
+  for (std::size_t i = 0; i < last.size(); ++i) place_of[last[i]] = static_cast<int>(i);
+}
+
+void LinearSolver::eliminate_last(std::vector<int> last) {
+  State& s = *state_;
+  const NoNestedThreads guard;
+  s.take_last(std::move(last));
+  s.trailing_block.resize(0, 0);
+  s.indefinite = false;
+  s.springs.clear();
+  s.order_last();
+  if (!s.L) throw std::bad_alloc();
+}
 
 // METIS orders the rows for small fill; order_last() then moves the rows of `last` to the end.
 void LinearSolver::State::analyse() {
@@ -37,14 +52,16 @@ void LinearSolver::State::analyse() {
     const auto alone = one_ordering_at_a_time();
     L = cholmod_analyze(A, &common);
   }
-  if (L && !last.empty()) order_last();
+  if (!L) throw std::bad_alloc();
+  const int* order = static_cast<int*>(L->Perm);
+  fill_reducing.assign(order, order + A->nrow);
+  if (!last.empty()) order_last();
   if (!L) throw std::bad_alloc();
 }
 
 void LinearSolver::State::order_last() {
   const int n = static_cast<int>(A->nrow);
   const int m = static_cast<int>(last.size());
-  const int* fill_reducing = static_cast<int*>(L->Perm);
   std::vector<int> order;
   order.reserve(n);
   for (int i = 0; i < n; ++i)
@@ -57,7 +74,7 @@ void LinearSolver::State::order_last() {
   // CHOLMOD's postordering may permute the last rows among themselves. If the matrix is that of
   // several unconnected bodies, it may also move them from the end.
   const int* permutation = static_cast<int*>(L->Perm);
-  trailing = true;
+  trailing = !last.empty();
   trailing_order.resize(m);
   for (int i = 0; i < m; ++i) {
     trailing_order[i] = place_of[permutation[n - m + i]];

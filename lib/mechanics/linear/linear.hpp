@@ -20,6 +20,9 @@ class LinearSolver {
   LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
   ~LinearSolver();
 
+  // Other rows to eliminate last. The next thing is a factorization.
+  void eliminate_last(std::vector<int> last);
+
   // By CHOLMOD; false if K is not positive definite. solve() then needs another factorization.
   bool factorize(const std::vector<double>& values);
   // By UMFPACK, whatever the signs; false where K is singular.

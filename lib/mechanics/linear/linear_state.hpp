@@ -41,6 +41,7 @@ struct LinearSolver::State {
   cholmod_common common;
   cholmod_sparse* A = nullptr;
   cholmod_factor* L = nullptr;
+  std::vector<int> fill_reducing;   // rows in METIS's order
   std::vector<int> last;            // rows to eliminate last
   std::vector<int> place_of;        // row -> index in `last`, or -1
   bool trailing = false;            // the last rows of L are those of `last`
@@ -65,6 +66,7 @@ struct LinearSolver::State {
   }
 
   void analyse();
+  void take_last(std::vector<int> rows);
   void order_last();
   bool cholesky();                  // of A as it is
   VecX whole(const VecX& b) const;  // by the CHOLMOD factor, springs included

@@ -24,6 +24,10 @@ struct ShearStiffness {
 ShearStiffness smallest_shear_stiffness(const Material& material, const Mat3& F,
                                         std::span<const Vec3> a);
 
+// 1, 0 or -1 where the smallest shear stiffness is positive, zero or negative; NaN where F has no
+// response. Where a bound or one negative stiffness decides, the smallest is not looked for.
+double sign_of_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a);
+
 // the smallest over n wave normals only: from above [MPa]
 double sampled_shear_stiffness(const Material& material, const Mat3& F, std::span<const Vec3> a,
                                int n);

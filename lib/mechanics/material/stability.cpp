@@ -40,6 +40,12 @@ double ellipticity_at(const Material& material, Path path, double x) {
   return nan;
 }
 
+double ellipticity_sign_at(const Material& material, Path path, double x) {
+  const PathState s = on_path(material, path, x);
+  if (s.exists) return sign_of_shear_stiffness(material, s.F, fibre_directions(material));
+  return nan;
+}
+
 // The first x at which `is` holds for f: bisection in the first interval at whose end it holds. NaN
 // is compared by functions that do not trap.
 template <class F, class Is>
@@ -87,7 +93,7 @@ PathStability path_stability(const Material& material, Path path,
     return slope_at(material, path, x);
   };
   const auto ellipticity = [&](double x) {
-    return ellipticity_at(material, path, x);
+    return ellipticity_sign_at(material, path, x);
   };
   s.slope_loss = first_place(amount, s.slope, slope, is_lost);
   s.ellipticity_loss = first_place(amount, s.ellipticity, ellipticity, is_lost);
@@ -103,7 +109,7 @@ HenckyReach hencky_reach(const Material& material, double most) {
   constexpr double step = 0.1;
   const std::vector<Vec3> a = fibre_directions(material);
   const auto stiffness = [&](const auto& h, double r) {
-    return smallest_shear_stiffness(material, state_at(h, r), a).value;
+    return sign_of_shear_stiffness(material, state_at(h, r), a);
   };
   HenckyReach reach{inf, inf};
   for (int i = 0; i < directions; ++i) {

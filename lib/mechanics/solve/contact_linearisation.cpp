@@ -14,9 +14,14 @@ namespace {
 // Far candidates cannot close in this linear step: their gap exceeds what the whole movement could
 // take away. Those with springs are all needed, to take the springs out. travel: of the indenter
 // under force control, which may take as much of the gap as well
-std::vector<Near> near_candidates(const ContactState& state, const TangentFactor& factor,
-                                  const VecX& move, double travel) {
-  std::vector<Near> near;
+struct NearCandidates {
+  std::vector<Near> of;
+  int level = 0;  // the lowest that holds them
+};
+
+NearCandidates near_candidates(const ContactState& state, const TangentFactor& factor,
+                               const MoveOfNode& move, double travel) {
+  NearCandidates near;
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const RigidContact& contact = state.contacts[k];
     const Vec3 c = state.c[k];
@@ -27,11 +32,7 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
       const int node = contact.nodes[i];
       const Vec3 x = state.X[node] + state.u.segment<3>(3 * node);
       const Vec3 x0 = state.X[node] + state.u_start[k].segment<3>(3 * node);
-      Vec3 d = Vec3::Zero();
-      for (int j = 0; j < 3; ++j) {
-        const int row = factor.last_of(3 * node + j);
-        d[j] = row >= 0 ? move[row] : 0;
-      }
+      const Vec3 d = move(node);
       const double reach = (c - c0).norm() + 2 * d.norm() + 0.05 + further;
       const bool bonded = state.bonds && state.bonds->holds(k, i);
       if (!factor.with_springs() && !bonded && state.r[k][i].isZero(0) &&
@@ -41,7 +42,8 @@ std::vector<Near> near_candidates(const ContactState& state, const TangentFactor
       if (bonded) n.law.D += n.law.frame.transpose() * state.bonds->tangent(k, i) * n.law.frame;
       n.r = n.law.frame.transpose() * state.r[k][i];
       n.move = n.law.frame.transpose() * d;
-      near.push_back(n);
+      near.of.push_back(n);
+      near.level = std::max(near.level, factor.levels().of(k, i));
     }
   }
   return near;
@@ -294,10 +296,16 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
 }  // namespace
 
 std::optional<ContactChange> linearised_contact(const ContactState& state,
-                                                const TangentFactor& factor, const VecX& move) {
+                                                const TangentFactor& factor,
+                                                const MoveOfNode& move) {
   ContactChange change{VecX::Zero(static_cast<Eigen::Index>(factor.last().size())), state.r};
   for (double travel = 0.1;; travel = 2 * change.travel) {
-    const std::vector<Near> near = near_candidates(state, factor, move, travel);
+    const NearCandidates found_near = near_candidates(state, factor, move, travel);
+    if (found_near.level > factor.level()) {
+      change.level = found_near.level;
+      return change;
+    }
+    const std::vector<Near>& near = found_near.of;
     if (near.empty() && state.controlled < 0) return change;
     if (near.empty()) return std::nullopt;
     const Condensed c = condensed(state, factor, near);

@@ -6,6 +6,7 @@
 // taken out again (contact/supported_problem.hpp).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,11 +20,15 @@ struct ContactChange {
   Reactions r;        // after the movement, in the frames before it
   double travel = 0;  // of the indenter under force control, in this movement [mm]
   int sweeps = 0;
+  // A level of candidates above that of the factor, one of which might close: then there is no
+  // answer yet.
+  std::optional<int> level = {};
 };
 
-// move: of the rows of factor.last() without any change of reaction [mm]. Nothing where no finite
-// answer is found.
+// move: of a node without any change of reaction [mm]. Nothing where no finite answer is found.
+using MoveOfNode = std::function<Vec3(int node)>;
 std::optional<ContactChange> linearised_contact(const ContactState& state,
-                                                const TangentFactor& factor, const VecX& move);
+                                                const TangentFactor& factor,
+                                                const MoveOfNode& move);
 
 }  // namespace langer

@@ -5,6 +5,8 @@
 //                                    solved on it (contact_linearisation.hpp)
 //   contact in the tangent itself    rows of closed contacts join K (contact_in_tangent.hpp)
 // A factor of an earlier state of the increment serves for cheaper corrections (modified Newton).
+#include <algorithm>
+
 #include "core/base/stopwatch.hpp"
 #include "mechanics/linear/krylov.hpp"
 #include "mechanics/mesh/reference.hpp"
@@ -35,6 +37,9 @@ bool Statics::factorize_accepted() {
     K_current_ = true;
   }
   TangentFactor& factor = condensed_factor();
+  int level = level_of_increment(before_, now_.t, now_.travel - before_.travel);
+  level = std::max(level, level_of_increment(now_, now_.t, 0));
+  factor.take_level(equilibrium_, level);
   const TangentFactor::Counts needed = factor.counts();
   factor_serves_ = false;
   bool solvable = false;
@@ -158,7 +163,9 @@ std::optional<VecX> Statics::solve_with_contact(const VecX& rhs) {
 // Follower pressures with a free edge add a skew part S to the symmetric tangent K. The factor of K
 // is a good preconditioner: (I - K^-1 S) du = K^-1 rhs converges in a few iterations.
 VecX Statics::solve_with_follower_loads(const VecX& rhs) {
-  constexpr double accurate = 1e-6;  // of the correction
+  // Share of the correction that is left. What a correction leaves of the residual is more than
+  // this: 0.03 to 0.3 by an old tangent, and by a new one what the step is too long for.
+  const double accurate = again_ ? 1e-2 : 1e-3;
   LinearSolver& linear = factor_.linear();
   if (!equilibrium_.loads().follow()) return linear.solve(rhs);
   const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
@@ -172,6 +179,56 @@ VecX Statics::solve_with_follower_loads(const VecX& rhs) {
 
 // Contact condensed to the candidates: forward half of the solve, contact law on the Schur
 // complement, backward half.
+std::optional<ContactChange> Statics::change_of_contact(const VecX& rhs, LinearSolver::Half& half) {
+  LinearSolver& linear = factor_.linear();
+  VecX free;  // movement of all rows, where candidates stand among them
+  {
+    const Stopwatch watch(cost_.solve);
+    half = linear.start(rhs);
+    if (factor_.leaves_out()) free = linear.finish(half, VecX::Zero(half.last.size()));
+  }
+  const auto move_of_node = [&](int node) {
+    Vec3 d = Vec3::Zero();
+    for (int j = 0; j < 3; ++j) {
+      const int dof = 3 * node + j;
+      const int row = free.size() > 0 ? equilibrium_.dofs().equation[dof] : factor_.last_of(dof);
+      if (row >= 0) d[j] = free.size() > 0 ? free[row] : half.last[row];
+    }
+    return d;
+  };
+  const Stopwatch watch(cost_.contact);
+  const std::vector<Vec3> c = indenters(t_, travel_);
+  const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
+  double force = 0;
+  if (controlled_ >= 0) force = controlled()->control->force.at(t_);
+  return linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
+                             controlled_, force, start_moves(), &bonds_},
+                            factor_, move_of_node);
+}
+
+// The level of candidates with which an increment to t begins, from the state before it: those that
+// the indenter can reach. A linear step that reaches further takes a higher one.
+int Statics::level_of_increment(const BodyState& from, double t, double last_travel) const {
+  if (!factor_.may_leave_out()) return factor_.level();
+  const std::vector<Vec3> begin = indenters(from.t, from.travel);
+  const std::vector<Vec3> end = indenters(t, from.travel);
+  int level = 0;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    double reach = 3 * (end[k] - begin[k]).norm() + 0.05;
+    if (static_cast<int>(k) == controlled_) reach += 0.1 + 2 * std::abs(last_travel);
+    for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) {
+      if (factor_.levels().of(k, i) <= level) continue;
+      const int node = contacts_[k].nodes[i];
+      const Vec3 x = equilibrium_.mesh().X[node] + from.u.segment<3>(3 * node);
+      const bool bonded = !bonds_.none() && bonds_.holds(k, i);
+      if (bonded || !from.r[k][i].isZero(0) ||
+          shape_at(contacts_[k].shape, x - end[k]).gap <= reach)
+        level = factor_.levels().of(k, i);
+    }
+  }
+  return level;
+}
+
 std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   LinearSolver& linear = factor_.linear();
   VecX move;
@@ -180,20 +237,14 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
     move = solve_with_follower_loads(rhs);
   } else {
     LinearSolver::Half half;
-    {
-      const Stopwatch watch(cost_.solve);
-      half = linear.start(rhs);
-    }
-    std::optional<ContactChange> change;
-    {
-      const Stopwatch watch(cost_.contact);
-      const std::vector<Vec3> c = indenters(t_, travel_);
-      const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
-      double force = 0;
-      if (controlled_ >= 0) force = controlled()->control->force.at(t_);
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
-                                   controlled_, force, start_moves(), &bonds_},
-                                  factor_, half.last);
+    std::optional<ContactChange> change = change_of_contact(rhs, half);
+    while (change && change->level) {  // more candidates may close than the factor keeps apart
+      factor_.take_level(equilibrium_, *change->level);
+      factor_serves_ = of_accepted_ = false;
+      if (again_ || !factorize()) return std::nullopt;
+      factor_serves_ = factor_.kind() == TangentFactor::Kind::whole &&
+                       equilibrium_.formulation() != Formulation::displacement;
+      change = change_of_contact(rhs, half);
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r);

@@ -52,6 +52,10 @@ void Statics::begin(double t) {
   if (controlled_ >= 0) move_to_touch();
   slip_from_touch();
   if (starts_with_travel()) expected_ = u_;
+  const int level = level_of_increment(now_, t, now_.travel - before_.travel);
+  if (level == factor_.level()) return;
+  factor_.take_level(equilibrium_, level);
+  factor_serves_ = false;
 }
 
 // Whether the last increment predicts this one: no prescribed movement, rotation or load has a

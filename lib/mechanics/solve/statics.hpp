@@ -155,6 +155,8 @@ class Statics {
   std::optional<VecX> correction();
   std::optional<VecX> correction_again();
   std::optional<VecX> solve_condensed(const VecX& rhs);
+  std::optional<ContactChange> change_of_contact(const VecX& rhs, LinearSolver::Half& half);
+  int level_of_increment(const BodyState& from, double t, double last_travel) const;
   VecX solve_with_follower_loads(const VecX& rhs);
   std::optional<VecX> solve_with_contact(const VecX& rhs);
   VecX with_prescribed_dofs(const VecX& free) const;

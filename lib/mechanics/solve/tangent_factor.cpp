@@ -12,6 +12,8 @@ namespace langer {
 namespace {
 
 constexpr std::size_t many_candidates = 400;
+// candidates at rest this close to the path of the indenter count [mm]
+constexpr double reach = 0.05;
 // flops of a factorization over (3 candidates)^3, the cost of a condensed law: above it,
 // factorizations that follow every change of stick and slip cost more than they save (langer-bench
 // wide, with friction)
@@ -56,24 +58,19 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
   const Dofs& dofs = body.dofs();
   if (take_iterative(body, contacts, linear_by)) return;
   const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
-  std::size_t candidates = 0;
-  for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
+  levels_ = CandidateLevels(contacts, body.mesh().X);
+  for (const RigidContact& contact : contacts) candidates_.push_back(contact.nodes);
+  const std::size_t candidates = levels_.on_the_path(reach);
   const bool wide = contact_by == ContactBy::tangent ||
                     (contact_by == ContactBy::by_cost && candidates >= many_candidates);
   const bool tangent_serves =
-      wide && candidates > 0 && !loose && ContactInTangent::serves(contacts);
+      wide && levels_.size() > 0 && !loose && ContactInTangent::serves(contacts);
   if (tangent_serves && (contact_by == ContactBy::tangent || !with_friction(contacts))) {
     take_into_tangent(body, contacts);
     return;
   }
-  if (!contacts.empty()) last_of_.assign(dofs.n, -1);
-  for (const RigidContact& contact : contacts)
-    for (int node : contact.nodes)
-      for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
-        if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
-          last_of_[dof] = static_cast<int>(last_.size());
-          last_.push_back(dofs.equation[dof]);
-        }
+  level_ = tangent_serves ? levels_.holding(candidates) : levels_.all();
+  list_last(dofs);
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
   if (tangent_serves &&
       linear_->size().flops < deep * std::pow(3.0 * static_cast<double>(candidates), 3)) {
@@ -85,6 +82,31 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
   if (last_.empty() || !loose) return;
   loose_ = node_stiffness(
       body);  // the weak resistance of contact to a free motion stays visible beside it
+}
+
+// The rows of the candidates of the level, and their places.
+void TangentFactor::list_last(const Dofs& dofs) {
+  last_.clear();
+  last_of_.clear();
+  if (!candidates_.empty()) last_of_.assign(dofs.n, -1);
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    for (std::size_t i = 0; i < candidates_[k].size(); ++i) {
+      if (levels_.of(k, i) > level_) continue;
+      const int node = candidates_[k][i];
+      for (int dof = 3 * node; dof < 3 * node + 3; ++dof) {
+        if (dofs.equation[dof] < 0 || last_of_[dof] >= 0) continue;
+        last_of_[dof] = static_cast<int>(last_.size());
+        last_.push_back(dofs.equation[dof]);
+      }
+    }
+}
+
+void TangentFactor::take_level(const Assembler& body, int level) {
+  if (level == level_ || !may_leave_out()) return;
+  level_ = level;
+  list_last(body.dofs());
+  linear_->eliminate_last(last_);
+  kind_ = Kind::none;
 }
 
 void TangentFactor::take_into_tangent(const Assembler& body,
@@ -136,6 +158,8 @@ bool TangentFactor::factorize(const Assembler& body) {
   kind_ = Kind::whole;
   if (!supported_ && loose_ == 0 && linear_->factorize(body.K())) return true;
   ++counts_.indefinite;
+  // springs on all candidates hold what contact may hold
+  take_level(body, levels_.all());
   if (!last_.empty()) return factorize_supported(body);
   ++counts_.unstable;
   kind_ = Kind::indefinite;

@@ -17,6 +17,7 @@
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/linear_by.hpp"
 #include "mechanics/linear/mixed_tangent.hpp"
+#include "mechanics/solve/candidate_levels.hpp"
 #include "mechanics/solve/contact_in_tangent.hpp"
 
 namespace langer {
@@ -39,6 +40,14 @@ class TangentFactor {
   // LinearBy::iterative is asked for and does not serve.
   TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts, int threads,
                 ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
+
+  // Which candidates are eliminated last. Where that changes, the next thing is a factorization.
+  const CandidateLevels& levels() const { return levels_; }
+  int level() const { return level_; }
+  void take_level(const Assembler& body, int level);
+  // whether candidates stand among the other rows
+  bool leaves_out() const { return !last_.empty() && level_ < levels_.all(); }
+  bool may_leave_out() const { return !last_.empty() && loose_ == 0; }
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment();
@@ -92,7 +101,11 @@ class TangentFactor {
                       LinearBy linear_by);
   void take_into_tangent(const Assembler& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Assembler& body);
+  void list_last(const Dofs& dofs);
 
+  std::vector<std::vector<int>> candidates_;  // nodes of each contact
+  CandidateLevels levels_;
+  int level_ = 0;
   std::vector<int> last_, last_of_;
   std::unique_ptr<ContactInTangent> in_tangent_;
   std::unique_ptr<LinearSolver> linear_;

@@ -1,5 +1,6 @@
 #include "results/plot/pictures.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/text.hpp"
@@ -18,24 +19,28 @@ void Pictures::check_replaceable(const std::string& name, bool script_makes_svg)
   }
 }
 
-// Writes the script and runs it at once if gnuplot is to draw now. A failure is kept for the end.
-void Pictures::run(const std::string& name, const std::string& script) {
-  write_text_file(path_of(name + ".gp"), script);
-  if (!now_) return;
+// A failure is kept for the end.
+void Pictures::draw_now(const std::string& name) {
   const std::string reason = run_gnuplot(folder_, name + ".gp");
   if (!reason.empty()) append(failed_[reason], ", ", name);
 }
 
 void Pictures::draw(const std::string& name, const Plot& plot) {
   check_replaceable(name, true);
-  run(name, gnuplot_script(plot, name, style_));
+  write_text_file(path_of(name + ".gp"), gnuplot_script(plot, name, style_));
+  if (now_) draw_now(name);
 }
 
 void Pictures::draw(const std::string& name, const Drawing& drawing) {
   check_replaceable(name, false);
   if (style_.wants(PictureFormat::svg))
     write_text_file(path_of(name + ".svg"), svg(drawing, style_));
-  run(name, gnuplot_script(drawing, name, style_));
+  // where SVG is all that is asked for, the script has nothing to draw
+  const bool has_more =
+      std::any_of(style_.formats.begin(), style_.formats.end(),
+                  [](PictureFormat format) { return format != PictureFormat::svg; });
+  write_text_file(path_of(name + ".gp"), gnuplot_script(drawing, name, style_));
+  if (now_ && has_more) draw_now(name);
 }
 
 std::string Pictures::path_of(const std::string& file) const {

@@ -29,7 +29,7 @@ class Pictures {
 
  private:
   void check_replaceable(const std::string& name, bool script_makes_svg) const;
-  void run(const std::string& name, const std::string& script);
+  void draw_now(const std::string& name);
   std::string path_of(const std::string& file) const;
   std::string folder_;
   FigureStyle style_;
