@@ -11,8 +11,8 @@ set(rooms
   results/store results/plot results/post
   scene/model scene/run
   accuracy/checks accuracy/estimate accuracy/refinement
-  identification/fit identification/sensitivity identification/statistics identification/setup
-  identification/inverse
+  identification/fit identification/sensitivity identification/statistics identification/posterior
+  identification/setup identification/population identification/laws identification/inverse
   export report
   pipeline/sweep pipeline/plan
   cli stages)

@@ -77,6 +77,29 @@ void complain_of_other_keys(const FitConfig& config, const std::string& key,
     complain(config.parameters[i].prior.has_value(), fmt::format("parameters[{}].prior", i), "");
 }
 
+// A prior has a weight beside the tests, whose noise is then known and white.
+void complain_of_priors(const FitConfig& config, std::vector<Complaint>& all) {
+  bool any = false;
+  for (std::size_t i = 0; i < config.parameters.size(); ++i) {
+    const auto& prior = config.parameters[i].prior;
+    if (!prior) continue;
+    any = true;
+    const auto& lower = config.parameters[i].lower;
+    if (prior->lognormal && lower && *lower < 0)
+      all.push_back({fmt::format("parameters[{}].prior.lognormal", i),
+                     "found for a number that may be negative", "lower: 0 or more", ""});
+  }
+  if (!any) return;
+  const NoiseKind noise = config.noise_model;
+  if (noise != NoiseKind::automatic && noise != NoiseKind::white)
+    all.push_back({"noise",
+                   std::string("found ") + names(noise)[static_cast<std::size_t>(noise)] +
+                       " together with a prior",
+                   "auto or white", "a prior counts against noise of a known deviation"});
+  if (config.leave_one_out)
+    all.push_back({"leave_one_out", "true, together with a prior", "false", ""});
+}
+
 void complain_of_specimens(const FitConfig& config, std::vector<Complaint>& all) {
   const SpecimensConfig& specimens = *config.specimens;
   std::vector<std::string> keys;
@@ -120,6 +143,11 @@ std::vector<Complaint> comparison_complaints(const FitConfig& config) {
     complain_of_specimens(config, all);
     complain_of_other_keys(config, "specimens", all);
   }
+  complain_of_priors(config, all);
+  if (config.has_scenes() && config.study && config.study->posterior)
+    all.push_back({"study.posterior", "found in a fit with scenes", "tests without scenes",
+                   "it takes thousands of runs; the bootstrap of a study is that of the model "
+                   "linearised where it was found"});
   for (std::size_t i = 0; i < config.data.size(); ++i)
     if (!config.data[i].specimen.empty() && !specimens)
       all.push_back({fmt::format("data[{}].specimen", i), "found without `specimens`",
