@@ -483,8 +483,6 @@ MixedResult estimate(Population& all, const MixedState& start, NoiseModel& noise
   return best;
 }
 
-std::vector<double> eigen_list(const VecX& x) { return {x.data(), x.data() + x.size()}; }
-
 struct Range95 {
   double low = not_known, high = not_known;
 };
