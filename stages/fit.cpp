@@ -15,8 +15,12 @@
 #include "identification/inverse/inverse_fit.hpp"
 #include "identification/inverse/scene_candidates.hpp"
 #include "identification/inverse/wave_tests.hpp"
+#include "identification/laws/law_comparison.hpp"
+#include "identification/population/population_fit.hpp"
+#include "identification/posterior/posterior.hpp"
 #include "identification/sensitivity/long_work.hpp"
 #include "identification/setup/fit_report.hpp"
+#include "identification/setup/priors.hpp"
 #include "identification/statistics/study_files.hpp"
 #include "results/store/curves_file.hpp"
 #include "stage.hpp"
@@ -130,12 +134,21 @@ void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
   }
 }
 
-// langer-fit: read, search, report, then tables, figures and the study.
-std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
+// A fit of one law: read, search, report, then tables, figures and the study. `tables`: of a
+// comparison in which this law was chosen.
+std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
+                                 const std::vector<RecordTable>& tables = {}) {
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
   check_side_files(job, problem);
   for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
+  const std::vector<Prior> priors = priors_of(config, problem, job.where);
+  const bool only_tests = !config.has_scenes();
+  if (!priors.empty() && only_tests) {
+    weigh_by_noise(problem, {config.searches(), static_cast<unsigned>(config.seed), {}});
+    problem.further = with_priors(priors, {});
+    problem.noise = NoiseKind::white;
+  }
   std::optional<InverseFit> scenes;
   std::optional<Interruptible> at_the_end_of_an_increment;
   if (config.has_scenes()) {
@@ -143,6 +156,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
     scenes.emplace(job.voice(), config, job.where, problem,
                    job.has("curves") ? job.inputs.at("curves") : std::vector<std::string>(),
                    job.output + ".runs");
+    if (!priors.empty()) scenes->set_priors(priors);
   }
   std::shared_ptr<WaveTests> waves;
   if (config.has_waves()) {
@@ -157,6 +171,7 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
                                         {config.searches(), static_cast<unsigned>(config.seed), {}},
                                         config.noise());
   FitRecord record = fit_record(problem, found);
+  record.tables = tables;
   record.at_rest = at_rest;
   if (config.leave_one_out) record.left_out_error_percent = left_out_error(problem, found);
   for (std::size_t i = 0; i < config.parameters.size(); ++i)
@@ -190,6 +205,16 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
          write_study_files(record.study, *config.study, config.figure_style, job.side_file("")))
       job.say("{}", line);
   }
+  if (config.study && config.study->posterior) {
+    const Posterior sampled =
+        posterior(problem, found, *config.study->posterior, config.study->threads,
+                  progress_of("fit", "posterior", job.quiet));
+    for (const std::string& line : posterior_lines(sampled)) job.say("{}", line);
+    for (const std::string& line : posterior_warnings(sampled)) job.warn("{}", line);
+    record.tables.push_back(sampled.table);
+    write_text_file(job.side_file("posterior.csv"), csv(sampled.table));
+    write_text_file(job.side_file("posterior_samples.csv"), posterior_csv(sampled));
+  }
   if (!record.tests.empty()) write_text_file(job.side_file("fit.csv"), fit_csv(record));
   write_text_file(job.side_file("parameters.csv"), parameters_csv(record));
   write_curves_of_scenes(job, record);
@@ -206,9 +231,74 @@ std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
   return read_summary(job.output);
 }
 
+// `laws` or `discover`: all of them are compared, the best becomes the material.
+std::vector<Summary> fit_best_law(const Job<FitConfig>& job) {
+  const bool discover = job.config.discover.has_value();
+  require_replaceable_by(job.side_file("laws.csv"), "law,");
+  for (const std::string& line : doubts(measured_tests(job.config))) job.warn("{}", line);
+  const auto progress = [&](const std::string& law) { job.say("fitting {}", law); };
+  LawComparison comparison;
+  if (discover) {
+    comparison = discover_terms(job.config, progress);
+  } else {
+    comparison = compare_laws(job.config, progress);
+  }
+  for (const std::string& line : law_lines(comparison)) job.say("{}", line);
+  std::vector<RecordTable> tables{law_table(comparison)};
+  write_text_file(job.side_file("laws.csv"), csv(tables.front()));
+  if (discover) {
+    tables.push_back(term_table(comparison));
+    write_text_file(job.side_file("terms.csv"), csv(tables.back()));
+  }
+  write_text_file(job.side_file("separating_tests.csv"), separation_csv(comparison));
+  Job<FitConfig> best = job;
+  best.config = comparison.laws.front().config;
+  job.say("the material is {}", comparison.laws.front().name);
+  return fit_one_law(best, tables);
+}
+
+// `specimens`: the material is that of the median specimen.
+std::vector<Summary> fit_specimens(const Job<FitConfig>& job) {
+  for (const std::string& name : population_files(job.config))
+    require_replaceable_by(job.side_file(name), "");
+  const auto at = [&](const std::string& key) { return job.where(key); };
+  const PopulationOutcome outcome =
+      fit_population(job.config, at, [&](const std::string& line) { job.say("{}", line); });
+  for (const std::string& line : outcome.lines) job.say("{}", line);
+  for (const std::string& line : outcome.warnings) job.warn("{}", line);
+  for (const PopulationFile& file : outcome.files)
+    write_text_file(job.side_file(file.name), file.text);
+  write_text_file(job.side_file("parameters.csv"), parameters_csv(outcome.record));
+  for (const Card& card : cards(outcome.median))
+    write_text_file(job.side_file(card.file), card.text);
+  write_material(job.output, outcome.median, outcome.record, job.identity);
+  return read_summary(job.output);
+}
+
+std::vector<Summary> fit_stage(const Job<FitConfig>& job) {
+  if (job.config.specimens) return fit_specimens(job);
+  if (!job.config.laws.empty() || job.config.discover) return fit_best_law(job);
+  return fit_one_law(job);
+}
+
 // Files next to the output that the stage writes.
 std::vector<std::string> side_files(const FitConfig& config) {
   std::vector<std::string> names{"parameters.csv"};
+  if (config.specimens) {
+    const std::vector<std::string> more = population_files(config);
+    names.insert(names.end(), more.begin(), more.end());
+    for (const Card& card : cards(config.law)) names.push_back(card.file);
+    return names;
+  }
+  if (!config.laws.empty() || config.discover) {
+    names.push_back("laws.csv");
+    names.push_back("separating_tests.csv");
+    if (config.discover) names.push_back("terms.csv");
+  }
+  if (config.study && config.study->posterior) {
+    names.push_back("posterior.csv");
+    names.push_back("posterior_samples.csv");
+  }
   if (!config.data.empty()) names.push_back("fit.csv");
   for (const Card& card : cards(config.law)) names.push_back(card.file);
   return names;

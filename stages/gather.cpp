@@ -193,6 +193,32 @@ std::vector<Summary> gather_parameters(const Job<GatherConfig>& job) {
   return {};
 }
 
+// The table of `rows: laws`, `population` and so on: one that a fit left in its material.h5.
+std::vector<Summary> gather_table(const Job<GatherConfig>& job) {
+  const std::vector<std::string>& files = job.inputs.at("curves");
+  const std::string name = names(job.config.rows)[static_cast<std::size_t>(job.config.rows)];
+  const auto refuse = [&](const std::string& found) {
+    throw Failure(Exit::config, Error{job.where("rows"), "rows", name + ", of " + found,
+                                      "material.h5 of one fit with such a table",
+                                      "`laws:`, `discover:`, `specimens:` or `study: {posterior: "
+                                      "{}}` in the config of the fit"});
+  };
+  if (files.size() != 1) refuse(fmt::format("{} files", files.size()));
+  if (read_origin(files[0]).schema != material_schema.name) refuse(files[0]);
+  const std::optional<FitRecord> fit = read_material(files[0]).fit;
+  if (!fit) refuse("a material that was not fitted");
+  const auto found = std::ranges::find(fit->tables, name, &RecordTable::name);
+  if (found == fit->tables.end()) refuse("a fit without it");
+  Sweep sweep;
+  sweep.axes = {{found->row, "-", found->rows}};
+  sweep.members = found->rows;
+  for (const RecordColumn& column : found->columns)
+    sweep.columns.push_back({column.name, column.unit, column.values});
+  write_sweep(job.output, job.side_file("table.csv"), sweep, nullptr, {}, job.identity);
+  job.say("{} rows", sweep.members.size());
+  return {};
+}
+
 // Reads the summary of each file, with the name and the axis values that the config gives it. If
 // anything is drawn, the curves of each file are kept, too.
 std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& members) {
@@ -228,6 +254,7 @@ std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& mem
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const GatherConfig& config = job.config;
   if (config.rows == GatherRows::parameters) return gather_parameters(job);
+  if (config.rows != GatherRows::members) return gather_table(job);
   Members members;
   const std::vector<GatherInput> inputs = read_members(job, members);
   std::vector<SweepAxis> axes;

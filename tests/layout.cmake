@@ -12,8 +12,8 @@ set(rooms
   layers
   scene/model scene/run
   accuracy/checks accuracy/estimate accuracy/refinement
-  identification/fit identification/sensitivity identification/statistics identification/setup
-  identification/inverse
+  identification/fit identification/sensitivity identification/statistics identification/posterior
+  identification/setup identification/population identification/laws identification/inverse
   export report
   pipeline/sweep pipeline/plan
   cli serve/http serve stages)

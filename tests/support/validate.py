@@ -67,8 +67,8 @@ def broken(data):
         yield "an empty map", {}
 
 
-def optional(path):  # nothing in a config of gather or sensitivity is required
-    return "/gather/" in path or "/sensitivity/" in path
+def optional(path):  # no key of a config of gather or sensitivity is required, and of fit none in all
+    return "/gather/" in path or "/sensitivity/" in path or "/fit/" in path
 
 
 complaints = []

@@ -36,12 +36,20 @@ double square_error(const FitProblem& problem, const FitResult& all, std::size_t
 
 }  // namespace
 
+std::vector<double> left_out_errors(const FitProblem& problem, const FitResult& fit) {
+  std::vector<double> errors;
+  for (std::size_t left = 0; left < problem.tests.size(); ++left) {
+    errors.push_back(std::sqrt(square_error(problem, fit, left)));
+  }
+  return errors;
+}
+
 // The root mean square error of each test predicted from a fit to the others, in percent.
 double left_out_error(const FitProblem& problem, const FitResult& fit) {
   const std::size_t n = problem.tests.size();
   if (n < 2 || problem.further) return nan;
   double sum = 0;
-  for (std::size_t left = 0; left < n; ++left) sum += square_error(problem, fit, left);
+  for (const double error : left_out_errors(problem, fit)) sum += error * error;
   return 100 * std::sqrt(sum / static_cast<double>(n));
 }
 

@@ -3,6 +3,8 @@
 // test is predicted. Laws that have the same likelihood may differ in this.
 #pragma once
 
+#include <vector>
+
 #include "identification/fit/fit.hpp"
 
 namespace langer {
@@ -11,5 +13,8 @@ namespace langer {
 // counting alike [percent]. NaN where there is one test, or where what remains has too few values
 // or no optimum.
 double left_out_error(const FitProblem& problem, const FitResult& fit);
+
+// The same of each test, as a share of its largest stress [-].
+std::vector<double> left_out_errors(const FitProblem& problem, const FitResult& fit);
 
 }  // namespace langer

@@ -58,7 +58,7 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
 
 // Fits at one mesh size. A signal ends the search with advice; cached runs are kept.
 FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const FitOptions& options) {
-  problem_.further = scenes;
+  problem_.further = with_priors(priors_, scenes);
   try {
     return fit(problem_, options);
   } catch (const Failure& failure) {
@@ -114,7 +114,7 @@ FitResult InverseFit::search() {
 }
 
 std::vector<FittedCurve> InverseFit::curves(const FitResult& fit) const {
-  std::vector<FittedCurve> curves = scenes_->fitted(fit.further);
+  std::vector<FittedCurve> curves = scenes_->fitted(fit.further.head(scenes_->measured().size()));
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitQuality& q = fit.of_test[problem_.tests.size() + i];
     curves[i].r2 = q.r2;
@@ -134,7 +134,8 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   }
   // Richardson's extrapolation for forces of second order: the error of the fine mesh is the
   // difference to the coarse mesh over (factor^2 - 1).
-  const VecX beyond = (fit.further - coarse) / (draft_factor * draft_factor - 1);
+  const VecX of_scenes = fit.further.head(coarse.size());
+  const VecX beyond = (of_scenes - coarse) / (draft_factor * draft_factor - 1);
   Eigen::Index at = 0;
   for (FittedCurve& curve : record.curves) {
     const auto n = static_cast<Eigen::Index>(curve.measured.size());
@@ -145,7 +146,7 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   // The change of the parameters to first order if the measured values were compared with
   // extrapolated ones: least squares of the error by the Jacobian.
   VecX r = VecX::Zero(fit.best.r.size());
-  r.tail(beyond.size()) = scenes_->weight().cwiseProduct(beyond);
+  r.segment(r.size() - fit.further.size(), beyond.size()) = scenes_->weight().cwiseProduct(beyond);
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
     if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/voice.hpp"
+#include "identification/fit/prior.hpp"
 #include "identification/inverse/scene_fit.hpp"
 
 namespace langer {
@@ -20,6 +21,12 @@ class InverseFit {
   InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where,
              FitProblem& problem, const std::vector<std::string>& files, const std::string& journal,
              bool quotients = false);
+
+  // What was known of parameters before; behind the values of the scenes.
+  void set_priors(const std::vector<Prior>& priors) {
+    priors_ = priors;
+    problem_.further = with_priors(priors_, scenes_);
+  }
 
   // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code
   // where one has come.
@@ -47,6 +54,7 @@ class InverseFit {
   std::shared_ptr<RunCache> cache_;
   std::shared_ptr<SceneTests> scenes_, draft_;
   std::optional<FitResult> reached_;
+  std::vector<Prior> priors_;
 };
 
 // parameter,true,found,standard_error,lower_95,upper_95; empty cells where there is nothing

@@ -8,6 +8,7 @@
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/population/link.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
@@ -40,10 +41,31 @@ VecX drawn(const FitRecord& fit, int number) {
   return p;
 }
 
+// A specimen of the population: the same number is always the same one.
+VecX drawn_specimen(const PopulationRecord& population, int number) {
+  const auto n = population.median.size();
+  Random random(1, static_cast<std::uint64_t>(number));
+  VecX z(n);
+  for (double& one : z) one = random.normal();
+  const VecX phi = population.median + covariance_root(population.scatter) * z;
+  VecX p(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    Link link;
+    for (const LinkKind kind : {LinkKind::identity, LinkKind::log, LinkKind::logit})
+      if (population.links[at] == names(kind)[static_cast<std::size_t>(kind)]) link.kind = kind;
+    link.lower = population.lower[at];
+    link.upper = population.upper[at];
+    p[i] = link.backward(phi[i]);
+  }
+  return p;
+}
+
 }  // namespace
 
 std::string reason_without_samples(const MaterialFile& file, int number) {
   if (!file.fit) return "no fit";
+  if (file.fit->population) return "";
   if (file.fit->sets.rows() > 0) {
     if (number <= file.fit->sets.rows()) return "";
     return fmt::format("{} sets", file.fit->sets.rows());
@@ -58,7 +80,9 @@ std::string reason_without_samples(const MaterialFile& file, int number) {
 ParameterSample sample_of(const MaterialFile& file, int number) {
   const FitRecord& fit = *file.fit;
   VecX p;
-  if (fit.sets.rows() > 0) {
+  if (fit.population) {
+    p = drawn_specimen(*fit.population, number);
+  } else if (fit.sets.rows() > 0) {
     p = fit.sets.row(number - 1).transpose();
   } else {
     p = drawn(fit, number);
@@ -75,6 +99,10 @@ ParameterSample sample_of(const MaterialFile& file, int number) {
       append(sample.words, ", ", fmt::format("{} = {:.5g}{}", one.name, *one.value, unit));
     }
   TiedNumbers(sample.law, resolved(fit.ties).ties).follow();
+  if (fit.population) {
+    sample.words = fmt::format("specimen {} of the population: {}", number, sample.words);
+    return sample;
+  }
   sample.words =
       fmt::format("parameters {} of those that the fit leaves open: {}", number, sample.words);
   return sample;

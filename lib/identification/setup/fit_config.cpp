@@ -10,7 +10,10 @@
 #include "core/base/error.hpp"
 #include "core/base/text.hpp"
 #include "core/config/writer.hpp"
+#include "identification/setup/comparison_complaints.hpp"
+#include "identification/setup/law_catalogue.hpp"
 #include "identification/setup/specimen.hpp"
+#include "identification/setup/specimen_table.hpp"
 
 namespace langer {
 
@@ -106,6 +109,9 @@ std::vector<Complaint> FitData::complaints() const {
 }
 
 void FitConfig::complete(Tree& tree) {
+  if (tree.kind != Tree::Kind::map) return;
+  complete_laws(tree);
+  expand_specimens(tree);
   for (auto& entry : tree.map)
     if (entry.key == "data")
       for (Tree& item : entry.value.list) add_keys_of_measured_file(item);
@@ -375,9 +381,13 @@ std::vector<Tie> ties_of(const FitConfig& config) {
 // Checks the parameters: known keys, bounds within the range of the model, a start within the
 // bounds.
 std::vector<Complaint> FitConfig::complaints() const {
-  std::vector<Complaint> all;
-  if (data.empty()) all.push_back({"data", "an empty list", "one test at least", ""});
-  if (parameters.empty())
+  std::vector<Complaint> all = comparison_complaints(*this);
+  if (data.empty()) all.push_back({"data", "missing", "one test at least", ""});
+  if (law.matrix.empty() && all.empty())
+    all.push_back({"law", "missing", "a map (energy terms, fibre angles and the numbers that are not "
+                                     "fitted)",
+                   "or laws: [yeoh, hgo_yeoh, goh]"});
+  if (parameters.empty() && all.empty())
     all.push_back({"parameters", "an empty list", "one number to find at least", ""});
   if (dilatation == Dilatation::compressible)
     for (std::size_t i = 0; i < data.size(); ++i)

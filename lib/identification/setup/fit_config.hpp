@@ -19,6 +19,8 @@
 #include "core/base/input_path.hpp"
 #include "core/config/tree.hpp"
 #include "identification/fit/fit.hpp"
+#include "identification/setup/comparison_config.hpp"
+#include "identification/setup/prior_config.hpp"
 #include "identification/statistics/study_config.hpp"
 #include "layers/prestretch_config.hpp"
 #include "results/plot/figure_style.hpp"
@@ -79,7 +81,7 @@ constexpr auto names(ZeroAt) { return std::array{"reading", "start"}; }
 
 struct FitData {
   InputPath file;
-  std::string name;
+  std::string name, specimen;
   DataKind kind = DataKind::uniaxial;
   InputPath solve, mesh;
   std::string on, moved;
@@ -112,6 +114,8 @@ struct FitData {
       "measured test, CSV; keys of this list may stand in its header between lines `# ---`, or in a YAML file of its name; none: the "
       "next of the files that --curves gives");
     v(&FitData::name, "name", unit::none, "of the test; by default that of the file");
+    v(&FitData::specimen, "specimen", unit::none,
+      "id of the specimen that was tested, in a fit with `specimens`; written there by the program");
     v(&FitData::kind, "kind", unit::none,
       "what the test imposes; scene: what the config `solve` does");
     v(&FitData::solve, "solve", unit::none,
@@ -250,6 +254,7 @@ constexpr auto names(Bounds) { return std::array{"custom", "paper", "admissible"
 struct FitParameter {
   std::string key;
   std::optional<double> lower, upper, start, truth;
+  std::optional<PriorConfig> prior = {};
   static void fields(auto& v) {
     v(&FitParameter::key, "key", unit::none,
       "path of a number of the material, such as matrix.yeoh.a1", required);
@@ -261,6 +266,8 @@ struct FitParameter {
       "where the first search starts; by default the value in `law`");
     v(&FitParameter::truth, "truth", unit::none,
       "its true value, for synthetic data: reported next to the value found");
+    v(&FitParameter::prior, "prior", unit::none,
+      "what is known of it beforehand, as {normal: [2.0, 0.1]}: counts like one more measurement");
   }
 };
 
@@ -294,12 +301,24 @@ struct FitConfig {
   bool draft = true;
   SecondAnswer cross_check = SecondAnswer::none;
   std::optional<StudyConfig> study;
+  std::vector<std::string> laws;
+  std::optional<DiscoverConfig> discover;
+  std::optional<SpecimensConfig> specimens;
   FigureStyle figure_style;
   static void fields(auto& v) {
-    v(&FitConfig::data, "data", unit::none, "the tests to fit", required);
+    v(&FitConfig::data, "data", unit::none,
+      "the tests to fit; with `specimens` what their files do not say of themselves");
     v(&FitConfig::law, "law", unit::none,
-      "energy terms, fibre angles and the numbers that are not fitted", required);
-    v(&FitConfig::parameters, "parameters", unit::none, "the numbers to find", required);
+      "energy terms, fibre angles and the numbers that are not fitted; not with `laws` or `discover`");
+    v(&FitConfig::parameters, "parameters", unit::none,
+      "the numbers to find; not with `laws` or `discover`");
+    v(&FitConfig::laws, "laws", unit::none,
+      "instead of law and parameters: laws to compare by how they predict tests that they were not fitted to, such as [yeoh, "
+      "hgo_yeoh, goh] (docs/population.md)");
+    v(&FitConfig::discover, "discover", unit::none,
+      "instead of law and parameters: terms of an energy of which the fewest that describe the tests are chosen");
+    v(&FitConfig::specimens, "specimens", unit::none,
+      "tests of many specimens: the parameters of a population, and how they scatter");
     v(&FitConfig::ties, "ties", unit::none,
       "numbers of the material that follow others, such as those of a second family of fibres");
     v(&FitConfig::bounds, "bounds", unit::none,

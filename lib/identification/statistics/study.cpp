@@ -8,6 +8,7 @@
 #include "core/tensor/kinematics.hpp"
 #include "identification/fit/advice.hpp"
 #include "identification/fit/identifiability.hpp"
+#include "identification/statistics/candidate_test.hpp"
 #include "identification/statistics/within_bounds.hpp"
 #include "results/store/curves_file.hpp"
 #include "results/store/material_file.hpp"
@@ -19,93 +20,6 @@ namespace {
 template <class E>
 std::string word(E e) {
   return names(e)[static_cast<std::size_t>(e)];
-}
-
-TestKind kind_of(const CandidateChoice& choice) {
-  return static_cast<TestKind>(choice.kind);
-}  // of one that is no scene
-
-// The test that a candidate would be, to an amount (stretch less 1, or shear): as many points as
-// the largest test, whose weight it has as well, for it is measured by the same device.
-Test test_like(const CandidateChoice& choice, const std::vector<Test>& tests, double reach) {
-  const Test& largest =
-      *std::max_element(tests.begin(), tests.end(),
-                        [](const Test& a, const Test& b) { return a.points() < b.points(); });
-  Test t;
-  t.kind = kind_of(choice);
-  t.fibre_angle_deg = choice.fibre_angle;
-  t.weight = largest.weight;
-  for (std::size_t i = 1; i <= largest.points(); ++i) {
-    const double x = reach * static_cast<double>(i) / static_cast<double>(largest.points());
-    t.first.push_back(deformation_at(t.kind, x));
-    if (kind_of(choice) == TestKind::biaxial) t.second.push_back(1 + x);
-    t.stress_x.push_back(0);
-    if (kind_of(choice) == TestKind::equibiaxial || kind_of(choice) == TestKind::biaxial)
-      t.stress_z.push_back(0);
-  }
-  return t;
-}
-
-// the largest component of the Cauchy stress in a test, up to the first state that does not exist
-// [MPa]
-double largest_cauchy(const Material& material, Test test) {
-  const std::vector<Vec3> a = specimen_fibres(material, test.fibre_angle_deg);
-  double largest = 0;
-  for (std::size_t i = 0; i < test.points(); ++i) {
-    const PlaneState s =
-        plane_state(material, a, test.kind, test.first[i], test.second_at(i), test.shear);
-    if (!s.converged) break;
-    largest = std::max(largest, s.sigma.cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
-
-// How far a candidate goes: to the largest amount measured so far, but not beyond the stress that
-// the material has borne.
-double reach_of(const CandidateChoice& choice, const Material& material,
-                const std::vector<Test>& tests) {
-  double reach = 0, borne = 0;
-  for (const Test& one : tests) {
-    for (double x : one.first) reach = std::max(reach, strain_of(one.kind, x));
-    borne = std::max(borne, largest_cauchy(material, one));
-  }
-  const auto stress_at = [&](double amount) {
-    const std::vector<Vec3> a = specimen_fibres(material, choice.fibre_angle);
-    const double first = deformation_at(kind_of(choice), amount);
-    const PlaneState s = plane_state(material, a, kind_of(choice), first, first);
-    if (!s.converged) return std::numeric_limits<double>::infinity();
-    return s.sigma.cwiseAbs().maxCoeff();
-  };
-  // the first crossing: stress need not rise throughout
-  constexpr int steps = 60;
-  for (int i = 1; i <= steps; ++i) {
-    double high = reach * i / steps;
-    double low = reach * (i - 1) / steps;
-    if (!std::isgreater(stress_at(high), borne * (1 + 1e-9))) continue;
-    for (int k = 0; k < 30; ++k) {
-      const double middle = 0.5 * (low + high);
-      if (std::isgreater(stress_at(middle), borne)) {
-        high = middle;
-      } else {
-        low = middle;
-      }
-    }
-    return low;
-  }
-  return reach;
-}
-
-// the stress that the material has in a test; false where there is a state without one
-bool set_stress(Test& test, const Material& material, Dilatation dilatation) {
-  VecX stress(static_cast<Eigen::Index>(test.values()));
-  if (!model_stress(material, test, dilatation, stress.data())) return false;
-  if (!stress.allFinite()) return false;
-  const auto points = static_cast<Eigen::Index>(test.points());
-  for (std::size_t i = 0; i < test.stress_x.size(); ++i)
-    test.stress_x[i] = stress[static_cast<Eigen::Index>(i)];
-  for (std::size_t i = 0; i < test.stress_z.size(); ++i)
-    test.stress_z[i] = stress[points + static_cast<Eigen::Index>(i)];
-  return true;
 }
 
 // Noise that is believed in, at least: `least` is the deviation of a weighted value. Where noise is
@@ -145,13 +59,11 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
   for (const CandidateChoice& choice : config.candidates) {
     if (choice.kind == DataKind::scene || problem.tests.empty())
       continue;  // without tests it is not known how far one would go
-    const double reach = reach_of(choice, fit.material, problem.tests);
-    if (!(reach > 0)) continue;
+    const auto candidate = candidate_test(choice, fit.material, problem.tests, problem.dilatation);
+    if (!candidate) continue;
     FitProblem more = problem;
     more.further.reset();
-    more.tests = {test_like(choice, problem.tests, reach)};
-    // no test where the law has no state
-    if (!set_stress(more.tests[0], fit.material, problem.dilatation)) continue;
+    more.tests = {*candidate};
     FitResult same_noise = fit;
     same_noise.residual = VecX::Zero(static_cast<Eigen::Index>(more.tests[0].values()));
     MatX J_all;
@@ -159,12 +71,7 @@ std::vector<AdviceRecord> advice_of(const FitProblem& problem, const FitResult& 
     // residuals of a likelihood have a size of their own in each set of tests
     const double units = standardizer(more, fit.noise_model).normalisation(same_noise.residual) /
                          standardizer(problem, fit.noise_model).normalisation(fit.residual);
-    std::string quantity = "stretch";
-    if (kind_of(choice) == TestKind::simple_shear) quantity = "shear";
-    candidates.push_back(
-        {fmt::format("{}, fibres at {:g} degrees, to {} {:.2f}", word(kind_of(choice)),
-                     choice.fibre_angle, quantity, deformation_at(kind_of(choice), reach)),
-         J_all(Eigen::all, free), noise * units});
+    candidates.push_back({candidate->name, J_all(Eigen::all, free), noise * units});
   }
   std::vector<AdviceRecord> records;
   for (const Advice& a : advise(known, size, candidates)) {

@@ -9,6 +9,7 @@
 
 #include "core/base/fields.hpp"
 #include "core/base/input_path.hpp"
+#include "identification/statistics/posterior_config.hpp"
 #include "mechanics/material/states.hpp"
 
 namespace langer {
@@ -87,6 +88,7 @@ struct StudyConfig {
   double stability_to = 1;
   int threads = 1;
   bool figures = false;
+  std::optional<PosteriorConfig> posterior = {};
   static void fields(auto& v) {
     v(&StudyConfig::noise, "noise", unit::none,
       "least standard deviation of a measured value, as part of the largest stress; more where the fit misses by more",
@@ -105,6 +107,8 @@ struct StudyConfig {
     v(&StudyConfig::threads, "threads", unit::none,
       "processor cores; the results do not depend on it", between(1, 1024));
     v(&StudyConfig::figures, "figures", unit::none, "draw correlations, profiles and stability");
+    v(&StudyConfig::posterior, "posterior", unit::none,
+      "samples of the parameters by their probability, priors included; {} for 2000 of four chains");
   }
 };
 

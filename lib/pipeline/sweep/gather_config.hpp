@@ -41,9 +41,12 @@ struct GatherMember {
   }
 };
 
-// The rows of the table: members of the sweep, or parameters of one fit.
-enum class GatherRows { members, parameters };
-constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
+// The rows of the table: members of the sweep, parameters of one fit, or those of a table that a
+// fit made (results/store/record_table.hpp).
+enum class GatherRows { members, parameters, laws, terms, population, posterior };
+constexpr auto names(GatherRows) {
+  return std::array{"members", "parameters", "laws", "terms", "population", "posterior"};
+}
 
 // The config of gather. Without any key the table has all quantities of all files.
 struct GatherConfig {
@@ -57,7 +60,9 @@ struct GatherConfig {
   static void fields(auto& v) {
     v(&GatherConfig::rows, "rows", unit::none,
       "members: one for each file; parameters: one for each fitted parameter of one fit, with its "
-      "true value (of synthetic data), standard error and 95 % interval");
+      "true value (of synthetic data), standard error and 95 % interval; laws, terms, population, "
+      "posterior: the table of a fit that compared laws, discovered terms, has specimens or a "
+      "posterior");
     v(&GatherConfig::columns, "columns", unit::none,
       "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
@@ -79,8 +84,10 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
   std::vector<Complaint> all;
   const bool has_own_columns =
       !columns.empty() || !axes.empty() || !figures.empty() || !maps.empty();
-  if (rows == GatherRows::parameters && has_own_columns)
-    all.push_back({"rows", "parameters, together with columns, axes, figures or maps",
+  if (rows != GatherRows::members && has_own_columns)
+    all.push_back({"rows",
+                   std::string(names(rows)[static_cast<std::size_t>(rows)]) +
+                       ", together with columns, axes, figures or maps",
                    "none of them", "the table has columns of its own"});
   const std::string one_each = "one for each of the " + std::to_string(axes.size()) + " axes";
   for (std::size_t i = 0; i < members.size(); ++i)

@@ -256,6 +256,8 @@ void write_fit(const h5::Group& root, const FitRecord& fit) {
   write_curves_of_scenes(root, fit.curves);
   write_summary(root, summary_of(fit));
   write_study(root, fit.study);
+  write_tables(root, fit.tables);
+  if (fit.population) write_population(root, *fit.population);
 }
 
 // One tie of the text below; nothing if it cannot be read.
@@ -377,6 +379,8 @@ FitRecord read_fit(const h5::Group& root) {
   if (group.has("left_out_error")) fit.left_out_error_percent = group.read_scalar("left_out_error");
   if (group.has_attribute("ties")) fit.ties = read_ties(group.text_attribute("ties"));
   fit.study = read_study(root);
+  fit.tables = read_tables(root);
+  if (root.has("population")) fit.population = read_population(root);
   return fit;
 }
 

@@ -1,0 +1,461 @@
+#include "identification/population/mixed_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/base/in_order.hpp"
+#include "core/tensor/dense.hpp"
+
+namespace langer {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// A specimen whose residuals were made linear: |u + J (phi - phi_i)|^2 = |R phi - c|^2 + rest.
+struct Linear {
+  MatX R;  // (min(m, q), q)
+  VecX c;
+  double rest = 0;
+  double values = 0;  // m
+};
+
+// The model with mixed effects that is linear in phi. Its parameters are the entries of L, row by
+// row, and ln sigma^2; beta follows from them.
+class LinearMixed {
+ public:
+  LinearMixed(const std::vector<MixedSpecimen>& specimens, const std::vector<Eigen::Index>& random,
+              bool full)
+      : specimens_(specimens), random_(random) {
+    const auto r = static_cast<Eigen::Index>(random.size());
+    for (Eigen::Index i = 0; i < r; ++i) {
+      for (Eigen::Index j = full ? 0 : i; j <= i; ++j) {
+        entry_.push_back({i, j});
+      }
+    }
+  }
+
+  std::vector<Linear> data;
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(entry_.size()) + 1; }
+  Eigen::Index random_size() const { return static_cast<Eigen::Index>(random_.size()); }
+
+  MatX factor(const VecX& x) const {
+    MatX L = MatX::Zero(random_size(), random_size());
+    for (std::size_t e = 0; e < entry_.size(); ++e) {
+      L(entry_[e].row, entry_[e].column) = x[static_cast<Eigen::Index>(e)];
+    }
+    return L;
+  }
+
+  VecX parameters(const MatX& L, double sigma) const {
+    VecX x(size());
+    for (std::size_t e = 0; e < entry_.size(); ++e) {
+      x[static_cast<Eigen::Index>(e)] = L(entry_[e].row, entry_[e].column);
+    }
+    x[size() - 1] = 2 * std::log(sigma);
+    return x;
+  }
+
+  // d Omega / d of an entry of L
+  MatX omega_slope(const MatX& L, std::size_t e) const {
+    MatX slope = MatX::Zero(L.rows(), L.cols());
+    const auto [row, column] = entry_[e];
+    slope.row(row) += L.col(column).transpose();
+    slope.col(row) += L.col(column);
+    return slope;
+  }
+
+  struct Value {
+    double minus_two_log_likelihood = std::numeric_limits<double>::infinity();
+    VecX beta;
+    MatX beta_information;
+    VecX gradient;     // of -2 ln L
+    MatX information;  // Fisher's, of ln L
+  };
+
+  Value at(const VecX& x, bool with_slopes) const {
+    Value value;
+    const MatX L = factor(x);
+    const MatX omega = L * L.transpose();
+    const double variance = std::exp(x[size() - 1]);
+    const auto k = specimens_.front().design.cols();
+    std::vector<Eigen::LLT<MatX>> factors;
+    MatX normal = MatX::Zero(k, k);
+    VecX right = VecX::Zero(k);
+    double sum = 0;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const Linear& one = data[i];
+      const MatX Rr = one.R(Eigen::all, random_);
+      MatX S = Rr * omega * Rr.transpose();
+      S.diagonal().array() += variance;
+      factors.emplace_back(S);
+      if (factors.back().info() != Eigen::Success) {
+        return value;
+      }
+      const MatX X = one.R * specimens_[i].design;
+      const MatX SX = factors.back().solve(X);
+      normal += X.transpose() * SX;
+      right += SX.transpose() * one.c;
+      const double left = one.values - static_cast<double>(one.c.size());
+      sum += left * std::log(variance) + one.rest / variance +
+             one.values * std::log(2 * std::numbers::pi);
+      sum += 2 * factors.back().matrixLLT().diagonal().array().log().sum();
+    }
+    value.beta = LeastNorm(normal).solve(right);
+    value.beta_information = normal;
+    const auto r = random_size();
+    MatX of_omega = MatX::Zero(r, r);
+    double of_variance = 0;
+    const std::size_t entries = entry_.size();
+    std::vector<MatX> slopes;
+    if (with_slopes) {
+      value.information = MatX::Zero(size(), size());
+      for (std::size_t e = 0; e < entries; ++e) {
+        slopes.push_back(omega_slope(L, e));
+      }
+    }
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const Linear& one = data[i];
+      const VecX d = one.c - one.R * (specimens_[i].design * value.beta);
+      const VecX Sd = factors[i].solve(d);
+      sum += d.dot(Sd);
+      if (!with_slopes) {
+        continue;
+      }
+      const auto n = one.c.size();
+      const MatX inverse = factors[i].solve(MatX::Identity(n, n));
+      const MatX Rr = one.R(Eigen::all, random_);
+      const MatX P = Rr.transpose() * inverse * Rr;
+      const MatX Q = Rr.transpose() * inverse * inverse * Rr;
+      const VecX g = Rr.transpose() * Sd;
+      of_omega += P - g * g.transpose();
+      const double left = one.values - static_cast<double>(n);
+      of_variance +=
+          variance * (inverse.trace() - Sd.squaredNorm()) + left - one.rest / variance;
+      add_information(P, Q, inverse, left, variance, slopes, value.information);
+    }
+    value.minus_two_log_likelihood = sum;
+    if (with_slopes) {
+      value.gradient.resize(size());
+      for (std::size_t e = 0; e < entries; ++e) {
+        value.gradient[static_cast<Eigen::Index>(e)] = (of_omega * slopes[e]).trace();
+      }
+      value.gradient[size() - 1] = of_variance;
+    }
+    return value;
+  }
+
+  // The parameters of largest likelihood, from x on.
+  VecX maximise(VecX x) const {
+    double damping = 1e-3;
+    Value now = at(x, true);
+    for (int iteration = 0; iteration < 500; ++iteration) {
+      MatX H = 2 * now.information;
+      const double least = 1e-12 * H.diagonal().maxCoeff();
+      H.diagonal() += damping * H.diagonal();
+      H.diagonal().array() += least;
+      const VecX step = -H.ldlt().solve(now.gradient);
+      const double promised = -step.dot(now.gradient);
+      Value next = at(x + step, true);
+      if (next.minus_two_log_likelihood < now.minus_two_log_likelihood) {
+        x += step;
+        now = std::move(next);
+        damping = std::max(1e-9, 0.3 * damping);
+      } else {
+        damping = std::max(1e-6, 10 * damping);
+      }
+      if (promised < 1e-11 || damping > 1e8) {
+        break;
+      }
+    }
+    return x;
+  }
+
+ private:
+  struct Entry {
+    Eigen::Index row, column;
+  };
+
+  // information of a pair of parameters: 1/2 tr(S^-1 dS_a S^-1 dS_b)
+  void add_information(const MatX& P, const MatX& Q, const MatX& inverse, double left,
+                       double variance, const std::vector<MatX>& slopes, MatX& sum) const {
+    std::vector<MatX> turned;
+    for (const MatX& slope : slopes) {
+      turned.push_back(P * slope);
+    }
+    const auto last = size() - 1;
+    for (Eigen::Index a = 0; a < last; ++a) {
+      const MatX& first = turned[static_cast<std::size_t>(a)];
+      for (Eigen::Index b = 0; b <= a; ++b) {
+        const MatX& second = turned[static_cast<std::size_t>(b)];
+        const double term = 0.5 * first.cwiseProduct(second.transpose()).sum();
+        sum(a, b) += term;
+        if (a != b) sum(b, a) += term;
+      }
+      const double cross =
+          0.5 * variance * Q.cwiseProduct(slopes[static_cast<std::size_t>(a)]).sum();
+      sum(a, last) += cross;
+      sum(last, a) += cross;
+    }
+    sum(last, last) += 0.5 * (variance * variance * inverse.squaredNorm() + left);
+  }
+
+  const std::vector<MixedSpecimen>& specimens_;
+  std::vector<Eigen::Index> random_;
+  std::vector<Entry> entry_;
+};
+
+// The mode of one specimen: min over z of |u(centre + L z)|^2 / sigma^2 + |z|^2. False where the
+// model has no state at the beginning.
+bool find_mode(const MixedSpecimen& specimen, const VecX& centre, const MatX& spread, double sigma,
+               VecX& z) {
+  VecX u;
+  MatX J;
+  if (!specimen.residual(centre + spread * z, u, &J)) {
+    z.setZero();
+    if (!specimen.residual(centre, u, &J)) {
+      return false;
+    }
+  }
+  const double weight = 1 / (sigma * sigma);
+  double cost = weight * u.squaredNorm() + z.squaredNorm();
+  double damping = 1e-4;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const MatX K = J * spread;
+    const VecX gradient = weight * (K.transpose() * u) + z;
+    MatX H = weight * (K.transpose() * K);
+    H.diagonal().array() += 1;
+    H.diagonal() += damping * H.diagonal();
+    const VecX step = -H.ldlt().solve(gradient);
+    VecX u_next;
+    MatX J_next;
+    const VecX z_next = z + step;
+    const bool exists = specimen.residual(centre + spread * z_next, u_next, &J_next);
+    double next = std::numeric_limits<double>::infinity();
+    if (exists) {
+      next = weight * u_next.squaredNorm() + z_next.squaredNorm();
+    }
+    const double promised = -step.dot(gradient);
+    if (next <= cost) {
+      z = z_next;
+      u = u_next;
+      J = J_next;
+      cost = next;
+      damping = std::max(1e-10, 0.1 * damping);
+    } else {
+      damping = std::max(1e-8, 10 * damping);
+    }
+    if (promised < 1e-13 * (1 + cost) || damping > 1e10) {
+      break;
+    }
+  }
+  return true;
+}
+
+// residuals that are linear at phi, as R and c
+bool make_linear(const MixedSpecimen& specimen, const VecX& phi, Linear& one) {
+  VecX u;
+  MatX J;
+  if (!specimen.residual(phi, u, &J) || !u.allFinite() || !J.allFinite()) {
+    return false;
+  }
+  const VecX target = J * phi - u;
+  const Qr qr(J);
+  one.R = qr.R();
+  one.c = qr.Q_transposed_times(target).head(one.R.rows());
+  one.rest = std::max(0., target.squaredNorm() - one.c.squaredNorm());
+  one.values = static_cast<double>(u.size());
+  return true;
+}
+
+// Inverse of a symmetric matrix that may lack rank: directions without information are left out.
+MatX pseudo_inverse(const MatX& A) {
+  if (A.size() == 0) {
+    return A;
+  }
+  const VecX scale = A.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  VecX inverse = VecX::Zero(eigen.values.size());
+  for (Eigen::Index i = 0; i < inverse.size(); ++i) {
+    if (eigen.values[i] > 1e-10) {
+      inverse[i] = 1 / eigen.values[i];
+    }
+  }
+  const MatX inner = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
+  return scale.asDiagonal() * inner * scale.asDiagonal();
+}
+
+// Errors of standard deviations and correlations, by the delta method from those of L.
+void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const MatX& L,
+                const std::vector<Eigen::Index>& random, MixedResult& result) {
+  const auto q = result.omega.rows();
+  const auto last = model.size() - 1;
+  const MatX covariance = pseudo_inverse(value.information);
+  result.log_deviation_error = VecX::Constant(q, unknown);
+  result.correlation_error = MatX::Constant(q, q, unknown);
+  const MatX omega = L * L.transpose();
+  std::vector<MatX> slopes;
+  for (Eigen::Index e = 0; e < last; ++e) {
+    slopes.push_back(model.omega_slope(L, static_cast<std::size_t>(e)));
+  }
+  const auto error_of = [&](const std::function<double(const MatX&)>& change) {
+    VecX gradient = VecX::Zero(model.size());
+    for (Eigen::Index e = 0; e < last; ++e) {
+      gradient[e] = change(slopes[static_cast<std::size_t>(e)]);
+    }
+    return std::sqrt(gradient.dot(covariance * gradient));
+  };
+  const auto r = static_cast<Eigen::Index>(random.size());
+  for (Eigen::Index i = 0; i < r; ++i) {
+    const double variance = omega(i, i);
+    if (!(variance > 0)) {
+      continue;
+    }
+    const auto at_i = random[static_cast<std::size_t>(i)];
+    result.log_deviation_error[at_i] =
+        error_of([&](const MatX& change) { return 0.5 * change(i, i) / variance; });
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double other = omega(j, j);
+      if (!(other > 0)) {
+        continue;
+      }
+      const double root = std::sqrt(variance * other);
+      const double rho = omega(i, j) / root;
+      const double error = error_of([&](const MatX& change) {
+        const double of_rho = change(i, j) / root -
+                              0.5 * rho * (change(i, i) / variance + change(j, j) / other);
+        return of_rho / std::max(1e-12, 1 - rho * rho);
+      });
+      const auto at_j = random[static_cast<std::size_t>(j)];
+      result.correlation_error(at_i, at_j) = error;
+      result.correlation_error(at_j, at_i) = error;
+    }
+  }
+}
+
+}  // namespace
+
+MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const MixedState& start,
+                            const MixedOptions& options) {
+  const auto n = specimens.size();
+  const auto q = specimens.front().design.rows();
+  std::vector<Eigen::Index> random;
+  for (Eigen::Index j = 0; j < q; ++j) {
+    if (options.varies.empty() || options.varies[static_cast<std::size_t>(j)]) {
+      random.push_back(j);
+    }
+  }
+  const auto r = static_cast<Eigen::Index>(random.size());
+  LinearMixed model(specimens, random, options.full);
+  model.data.resize(n);
+
+  MixedResult result;
+  static_cast<MixedState&>(result) = start;
+  const MatX omega_start = start.omega(random, random);
+  MatX L = omega_start.llt().matrixL();
+  if (!options.full) {
+    L = omega_start.diagonal().cwiseSqrt().asDiagonal();
+  }
+  VecX x = model.parameters(L, start.sigma);
+  std::vector<VecX> z(n, VecX::Zero(r));
+  std::vector<VecX> phi(n);
+  LinearMixed::Value value;
+
+  for (result.rounds = 1; result.rounds <= options.rounds; ++result.rounds) {
+    // The modes, and the model that is linear there. The modes of the round before are the start.
+    MatX spread = MatX::Zero(q, r);
+    spread(random, Eigen::all) = L;
+    const double sigma = std::exp(0.5 * x[model.size() - 1]);
+    const LeastNorm inverse(L);
+    std::vector<char> exists(n, 1);
+    in_order(
+        options.threads, static_cast<int>(n),
+        [&](int, int job) {
+          const auto i = static_cast<std::size_t>(job);
+          if (!start.b.empty() && result.rounds == 1 && start.b[i].size() == q) {
+            z[i] = inverse.solve(start.b[i](random));
+          } else if (result.rounds > 1 && result.b[i].size() == q) {
+            z[i] = inverse.solve(result.b[i](random));
+          }
+          const VecX centre = specimens[i].design * result.beta;
+          exists[i] = find_mode(specimens[i], centre, spread, sigma, z[i]);
+          phi[i] = centre + spread * z[i];
+        },
+        [](int, int) {});
+    if (options.reweigh) {
+      options.reweigh(phi);
+    }
+    result.b.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      result.b[i] = spread * z[i];
+      if (!exists[i] || !make_linear(specimens[i], phi[i], model.data[i])) {
+        result.why = "the model has no stress for specimen " + std::to_string(i + 1);
+        return result;
+      }
+    }
+
+    // Population, effects and variances of largest likelihood.
+    VecX next = model.maximise(x);
+    // a late oscillation between two sets of modes is damped
+    if (result.rounds > 40) {
+      next = 0.5 * (x + next);
+    }
+    value = model.at(next, true);
+    const VecX beta_before = result.beta;
+    const MatX omega_before = L * L.transpose();
+    const double variance_change = std::abs(next[model.size() - 1] - x[model.size() - 1]);
+    x = next;
+    L = model.factor(x);
+    result.beta = value.beta;
+    result.beta_covariance = pseudo_inverse(value.beta_information);
+    const MatX omega = L * L.transpose();
+    double change = variance_change;
+    for (Eigen::Index j = 0; j < result.beta.size(); ++j) {
+      const double error = std::sqrt(result.beta_covariance(j, j));
+      change = std::max(change, std::abs(result.beta[j] - beta_before[j]) / (error + 1e-300));
+    }
+    for (Eigen::Index i = 0; i < r; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        // a variance that goes to zero changes by any share of itself: there that of the start counts
+        const double first = 1e-6 * std::sqrt(omega_start(i, i) * omega_start(j, j));
+        const double size = std::sqrt(omega(i, i) * omega(j, j)) + first;
+        change = std::max(change, std::abs(omega(i, j) - omega_before(i, j)) / size);
+      }
+    }
+    if (change < options.tolerance) {
+      result.converged = true;
+      break;
+    }
+  }
+  result.rounds = std::min(result.rounds, options.rounds);
+  if (!result.converged) {
+    result.why = "modes and population still change after " + std::to_string(options.rounds) +
+                 " rounds";
+  }
+  result.sigma = std::exp(0.5 * x[model.size() - 1]);
+  result.omega = MatX::Zero(q, q);
+  result.omega(random, random) = L * L.transpose();
+  result.minus_two_log_likelihood = value.minus_two_log_likelihood;
+  set_errors(model, value, L, random, result);
+  const MatX omega_random = L * L.transpose();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Linear& one = model.data[i];
+    const MatX Rr = one.R(Eigen::all, random);
+    MatX S = Rr * omega_random * Rr.transpose();
+    S.diagonal().array() += result.sigma * result.sigma;
+    const MatX half = Rr * omega_random;
+    MatX explained = MatX::Zero(q, q);
+    explained(random, random) = half.transpose() * S.llt().solve(half);
+    result.explained.push_back(explained);
+    result.values += static_cast<int>(one.values);
+  }
+  result.likelihood_parameters =
+      static_cast<int>(result.beta.size()) + static_cast<int>(model.size());
+  return result;
+}
+
+}  // namespace langer

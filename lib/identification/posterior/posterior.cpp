@@ -1,0 +1,293 @@
+#include "identification/posterior/posterior.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/in_order.hpp"
+#include "core/base/quantile.hpp"
+#include "core/base/random.hpp"
+#include "core/tensor/dense.hpp"
+#include "identification/fit/periodic.hpp"
+#include "identification/posterior/nuts.hpp"
+#include "identification/statistics/study.hpp"
+#include "results/store/curves_file.hpp"
+
+namespace langer {
+
+namespace {
+
+// A parameter as a number without bounds: the logit of its place in the box, ln of its distance
+// from one bound, or itself.
+struct Free {
+  double lower = 0, upper = 0;
+  bool below = false, above = false;  // which bounds there are
+
+  double number(double x) const {
+    if (below && above) return lower + (upper - lower) / (1 + std::exp(-x));
+    if (below) return lower + std::exp(x);
+    if (above) return upper - std::exp(-x);
+    return x;
+  }
+  double slope(double x) const {
+    if (below && above) {
+      const double share = 1 / (1 + std::exp(-x));
+      return (upper - lower) * share * (1 - share);
+    }
+    if (below) return std::exp(x);
+    if (above) return std::exp(-x);
+    return 1;
+  }
+  // d ln slope / dx
+  double curvature(double x) const {
+    if (below && above) return 1 - 2 / (1 + std::exp(-x));
+    if (below) return 1;
+    if (above) return -1;
+    return 0;
+  }
+  double place(double p) const {
+    if (below && above) {
+      const double share = std::clamp((p - lower) / (upper - lower), 1e-6, 1 - 1e-6);
+      return std::log(share / (1 - share));
+    }
+    if (below) return std::log(std::max(p - lower, 1e-9));
+    if (above) return -std::log(std::max(upper - p, 1e-9));
+    return p;
+  }
+};
+
+class FitDensity {
+ public:
+  FitDensity(const FitProblem& problem, const FitResult& fit)
+      : model_(likelihood_problem(problem, fit)), estimate_(fit.best.p) {
+    known_noise_ = problem.further != nullptr;
+    for (Eigen::Index i = 0; i < model_.lower.size(); ++i) {
+      Free one;
+      // an angle that comes again has no bounds
+      if (!(model_.period_of(i) > 0)) {
+        one.lower = model_.lower[i];
+        one.upper = model_.upper[i];
+        one.below = std::isfinite(one.lower);
+        one.above = std::isfinite(one.upper);
+      }
+      free_.push_back(one);
+    }
+  }
+
+  VecX numbers(const VecX& x) const {
+    VecX p(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      p[i] = free_[static_cast<std::size_t>(i)].number(x[i]);
+    return p;
+  }
+
+  VecX place(const VecX& p) const {
+    VecX x(p.size());
+    for (Eigen::Index i = 0; i < p.size(); ++i)
+      x[i] = free_[static_cast<std::size_t>(i)].place(p[i]);
+    return x;
+  }
+
+  // angles by whole periods to where the estimate is
+  void turn_to_estimate(VecX& p) const {
+    for (Eigen::Index i = 0; i < p.size(); ++i) {
+      const double period = model_.period_of(i);
+      if (period > 0) p[i] -= period * std::round((p[i] - estimate_[i]) / period);
+    }
+  }
+
+  double operator()(const VecX& x, VecX& gradient) {
+    gradient = VecX::Zero(x.size());
+    const VecX p = numbers(x);
+    VecX u;
+    MatX J;
+    if (!p.allFinite() || !model_.residual(p, u) || !u.allFinite() || !jacobian(model_, p, J)) {
+      return -std::numeric_limits<double>::infinity();
+    }
+    const double square = u.squaredNorm();
+    const auto n = static_cast<double>(u.size());
+    double value = -0.5 * square;
+    double factor = -1;
+    if (!known_noise_) {
+      value = -0.5 * n * std::log(square);
+      factor = -n / square;
+    }
+    gradient = factor * (J.transpose() * u);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const Free& one = free_[static_cast<std::size_t>(i)];
+      gradient[i] = gradient[i] * one.slope(x[i]) + one.curvature(x[i]);
+      value += std::log(one.slope(x[i]));
+    }
+    return value;
+  }
+
+  // The covariance of x by the curvature of the density at the estimate.
+  MatX scale(const VecX& x) {
+    VecX u;
+    MatX J;
+    const VecX p = numbers(x);
+    const auto k = x.size();
+    if (!model_.residual(p, u) || !jacobian(model_, p, J)) return MatX::Identity(k, k);
+    const auto freedom = std::max(1., static_cast<double>(u.size() - k));
+    double variance = std::max(u.squaredNorm() / freedom, 1e-300);
+    if (known_noise_) variance = 1;
+    for (Eigen::Index i = 0; i < k; ++i) J.col(i) *= free_[static_cast<std::size_t>(i)].slope(x[i]);
+    MatX H = J.transpose() * J / variance;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Free& one = free_[static_cast<std::size_t>(i)];
+      // of the logistic distribution, which is what a flat prior in a box is on this scale
+      double own = 0.3;
+      // an angle of symmetry has no curvature to first order
+      if (!one.below && !one.above) own = 1 / (15. * 15.);
+      H(i, i) += own;
+    }
+    return H.llt().solve(MatX::Identity(k, k));
+  }
+
+ private:
+  LeastSquares model_;
+  VecX estimate_;
+  std::vector<Free> free_;
+  bool known_noise_ = false;
+};
+
+void set_table(const FitProblem& problem, Posterior& result) {
+  RecordTable& table = result.table;
+  table.name = "posterior";
+  table.row = "parameter";
+  table.rows = result.names;
+  for (const char* name : {"mean", "standard_deviation", "lower_95", "quartile_1", "median",
+                           "quartile_3", "upper_95", "r_hat", "effective_samples"})
+    table.column(name);
+  for (std::size_t j = 0; j < problem.free.size(); ++j) {
+    const VecX column = result.samples.col(static_cast<Eigen::Index>(j));
+    std::vector<double> sorted(column.data(), column.data() + column.size());
+    std::sort(sorted.begin(), sorted.end());
+    const double mean = column.mean();
+    const auto n = static_cast<double>(column.size());
+    table.column("mean").values.push_back(mean);
+    const double square = (column.array() - mean).matrix().squaredNorm();
+    table.column("standard_deviation").values.push_back(std::sqrt(square / (n - 1)));
+    table.column("lower_95").values.push_back(quantile(sorted, 0.025));
+    table.column("quartile_1").values.push_back(quantile(sorted, 0.25));
+    table.column("median").values.push_back(quantile(sorted, 0.5));
+    table.column("quartile_3").values.push_back(quantile(sorted, 0.75));
+    table.column("upper_95").values.push_back(quantile(sorted, 0.975));
+    table.column("r_hat").values.push_back(result.r_hat[j]);
+    table.column("effective_samples").values.push_back(result.effective[j]);
+  }
+}
+
+}  // namespace
+
+Posterior posterior(const FitProblem& problem, const FitResult& fit, const PosteriorConfig& config,
+                    int threads, const std::function<void(double)>& progress) {
+  const int each = (config.samples + config.chains - 1) / config.chains;
+  std::vector<NutsChain> chains(static_cast<std::size_t>(config.chains));
+  const auto p = static_cast<Eigen::Index>(problem.free.size());
+  const FitDensity first(problem, fit);
+  in_order(
+      std::min(threads, config.chains), config.chains,
+      [&](int, int chain) {
+        FitDensity density(problem, fit);
+        VecX start = density.place(fit.best.p);
+        const MatX scale = density.scale(start);
+        // chains begin at different places, twice as far apart as the posterior is wide
+        Random random(static_cast<std::uint64_t>(config.seed) + 77,
+                      static_cast<std::uint64_t>(chain));
+        VecX z(p);
+        for (double& one : z) one = random.normal();
+        const MatX root = scale.llt().matrixL();
+        VecX begin = start + 2 * (root * z);
+        VecX gradient;
+        for (int i = 0; i < 20 && !std::isfinite(density(begin, gradient)); ++i)
+          begin = 0.5 * (begin + start);
+        NutsOptions options;
+        options.samples = each;
+        options.warmup = config.warmup;
+        options.seed = static_cast<std::uint64_t>(config.seed);
+        options.chain = static_cast<std::uint64_t>(chain);
+        options.acceptance = config.acceptance;
+        const LogDensity of_fit = [&](const VecX& x, VecX& g) { return density(x, g); };
+        chains[static_cast<std::size_t>(chain)] = sample_chain(of_fit, begin, scale, options);
+      },
+      [&](int, int chain) {
+        if (progress) progress((chain + 1.) / config.chains);
+      });
+  Posterior result;
+  result.names = parameter_names(problem);
+  result.chains = config.chains;
+  result.samples.resize(static_cast<Eigen::Index>(each) * config.chains, p);
+  result.log_density.resize(result.samples.rows());
+  std::vector<std::vector<VecX>> columns(static_cast<std::size_t>(p));
+  Eigen::Index row = 0;
+  for (const NutsChain& chain : chains) {
+    const Eigen::Index begin = row;
+    for (Eigen::Index i = 0; i < chain.draws.rows(); ++i, ++row) {
+      VecX numbers = first.numbers(chain.draws.row(i).transpose());
+      first.turn_to_estimate(numbers);
+      result.samples.row(row) = numbers.transpose();
+      result.log_density[row] = chain.log_density[i];
+    }
+    for (Eigen::Index j = 0; j < p; ++j)
+      columns[static_cast<std::size_t>(j)].push_back(
+          result.samples.col(j).segment(begin, chain.draws.rows()));
+    result.divergences += chain.divergences;
+    result.acceptance += chain.acceptance / config.chains;
+  }
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const Convergence c = convergence(columns[static_cast<std::size_t>(j)]);
+    result.r_hat.push_back(c.r_hat);
+    result.effective.push_back(c.effective);
+  }
+  set_table(problem, result);
+  return result;
+}
+
+std::string posterior_csv(const Posterior& posterior) {
+  std::string text = "chain";
+  for (const std::string& name : posterior.names) text += "," + csv_cell(name);
+  text += ",log_density\n";
+  const Eigen::Index each = posterior.samples.rows() / posterior.chains;
+  for (Eigen::Index i = 0; i < posterior.samples.rows(); ++i) {
+    text += fmt::format("{}", i / each + 1);
+    for (const double x : posterior.samples.row(i)) text += fmt::format(",{:.9g}", x);
+    text += fmt::format(",{:.9g}\n", posterior.log_density[i]);
+  }
+  return text;
+}
+
+std::vector<std::string> posterior_lines(const Posterior& posterior) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("posterior: {} samples of {} chains, acceptance {:.2f}, {} divergences",
+                              posterior.samples.rows(), posterior.chains, posterior.acceptance,
+                              posterior.divergences));
+  RecordTable table = posterior.table;
+  for (std::size_t j = 0; j < posterior.names.size(); ++j)
+    lines.push_back(fmt::format(
+        "{:>10}  median {:.5g}, 95 %: {:.5g} to {:.5g}; R-hat {:.4f}, {:.0f} effective samples",
+        posterior.names[j], table.column("median").values[j], table.column("lower_95").values[j],
+        table.column("upper_95").values[j], posterior.r_hat[j], posterior.effective[j]));
+  return lines;
+}
+
+std::vector<std::string> posterior_warnings(const Posterior& posterior) {
+  std::vector<std::string> lines;
+  for (std::size_t j = 0; j < posterior.names.size(); ++j) {
+    if (!(posterior.r_hat[j] < 1.01) || posterior.effective[j] < 400)
+      lines.push_back(fmt::format(
+          "the posterior of {} is not known well: R-hat {:.3f} (should be below 1.01), {:.0f} "
+          "effective samples (400); more samples, more warmup, or parameters that the tests know",
+          posterior.names[j], posterior.r_hat[j], posterior.effective[j]));
+  }
+  if (posterior.divergences > 0)
+    lines.push_back(fmt::format("{} paths of the posterior diverged: acceptance: 0.95 takes smaller "
+                                "steps; a number that rests on its bound makes such places",
+                                posterior.divergences));
+  return lines;
+}
+
+}  // namespace langer

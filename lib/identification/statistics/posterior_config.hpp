@@ -1,0 +1,29 @@
+// The posterior of a fit: `study: {posterior: {samples: 2000}}`.
+#pragma once
+
+#include "core/base/fields.hpp"
+
+namespace langer {
+
+struct PosteriorConfig {
+  int samples = 2000;
+  int chains = 4;
+  int warmup = 300;
+  int seed = 1;
+  double acceptance = 0.85;
+  static void fields(auto& v) {
+    v(&PosteriorConfig::samples, "samples", unit::none, "of all chains together",
+      between(100, 1000000));
+    v(&PosteriorConfig::chains, "chains", unit::none,
+      "that begin at different places; where they disagree, they have not found the posterior",
+      between(2, 64));
+    v(&PosteriorConfig::warmup, "warmup", unit::none,
+      "steps of each chain that choose the step size and are not counted", between(50, 100000));
+    v(&PosteriorConfig::seed, "seed", unit::none, "of the chains", at_least(0));
+    v(&PosteriorConfig::acceptance, "acceptance", unit::none,
+      "that the step size aims at; closer to 1: smaller steps, fewer divergences",
+      between(0.5, 0.99));
+  }
+};
+
+}  // namespace langer
