@@ -243,6 +243,22 @@ Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {
   return part;
 }
 
+Tree as_entry(const char* key, const Tree& value) {
+  Tree map;
+  map.kind = Tree::Kind::map;
+  map.place = value.place;
+  map.base = value.base;
+  map.layers = value.layers;
+  map.map.push_back({key, value});
+  return map;
+}
+
+bool has_other_keys_only(const Tree& map, const std::vector<std::string>& keys) {
+  return !map.map.empty() && std::ranges::none_of(map.map, [&](const Tree::Entry& entry) {
+    return std::ranges::find(keys, entry.key) != keys.end();
+  });
+}
+
 std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
                                        Findings& f) {
   using Entries = std::vector<const Tree::Entry*>;
