@@ -359,7 +359,7 @@ struct SolveConfig {
     needs_stiffness(material, "material.matrix");
     for (const auto& [name, body] : materials)
       needs_stiffness(body.material, "materials." + name + ".material.matrix");
-    if (loads.empty() && contacts.empty())
+    if (loads.empty() && contacts.empty() && !modes && !(harmonic && harmonic->face))
       found.push_back({"", "nothing moves", "loads or contacts", ""});
     if (mesh && !mesh->exports.empty())
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
