@@ -134,9 +134,9 @@ TEST_CASE("a sheared column has the stiffness of its waves, with damping and ine
   }
   for (int i : mesh.node_sets.at("y_min")) held.push_back({3 * i, 0});
   for (int i : mesh.node_sets.at("y_max")) held.push_back({3 * i, 0.1});
-  Assembler body = test::equilibrium(mesh, {viscous(1e-3, tau, gamma)},
-                                     Formulation::linear_dilatation,
-                                     number_dofs(mesh.n_nodes(), held).dofs);
+  Assembler body =
+      test::equilibrium(mesh, {viscous(1e-3, tau, gamma)}, Formulation::linear_dilatation,
+                        number_dofs(mesh.n_nodes(), held).dofs);
   const Statics statics(body, {}, {});
   Driver driver;
   driver.nodes = mesh.node_sets.at("y_max");
@@ -180,11 +180,10 @@ TEST_CASE("a bonded disc on a half space has the stiffness 8 G*(w) a") {
     driver.nodes.push_back(i);
   }
   const std::vector<Material> materials{viscous(1e-4, 1, 0.8)};
-  Assembler body(mesh, materials, test::directions(mesh, materials),
-                 Formulation::linear_dilatation,
-                 number_dofs(mesh.n_nodes(), held, section_ties(mesh)).dofs, 1, Kernel::packets,
-                 std::vector<double>(static_cast<std::size_t>(mesh.n_cells()),
-                                     cell_share(*mesh.section)));
+  Assembler body(
+      mesh, materials, test::directions(mesh, materials), Formulation::linear_dilatation,
+      number_dofs(mesh.n_nodes(), held, section_ties(mesh)).dofs, 1, Kernel::packets,
+      std::vector<double>(static_cast<std::size_t>(mesh.n_cells()), cell_share(*mesh.section)));
   const Statics statics(body, {}, {});
   Harmonic harmonic(body, statics, {rho}, driver);
   for (double frequency : {0.016, 0.16, 1.6}) {

@@ -240,8 +240,6 @@ Tree value_schema(const Member& m, bool whole, Definitions& definitions) {
                                value_schema<typename T::mapped_type>(m, whole, definitions)}})}});
     refuse_others(t);
     return t;
-  } else if constexpr (ShortenedMap<T>) {
-    return object({{"anyOf", list({types({"number", "object"}), struct_schema<T>(whole, definitions)})}});
   } else if constexpr (Shortened<T>) {
     return object(
         {{"anyOf", list({types({"string", "number"}), struct_schema<T>(whole, definitions)})}});

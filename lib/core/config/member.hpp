@@ -100,12 +100,6 @@ concept ShortenedList = Listed<T> && requires {
   { T::list_key } -> std::convertible_to<const char*>;
 };
 
-// a struct that a map of names may stand for, none of which is a key: the value of one of its keys
-template <class T>
-concept ShortenedMap = Listed<T> && requires {
-  { T::map_key } -> std::convertible_to<const char*>;
-};
-
 // a struct with rules between its keys
 template <class T>
 concept Complaining = requires(const T& t) {
@@ -241,7 +235,6 @@ std::string type_words(const Member& m) {
       words = std::string("the value of ") + T::short_key + ", or " + words;
     if constexpr (ShortenedList<T>)
       words = std::string("the list of ") + T::list_key + ", or " + words;
-    if constexpr (ShortenedMap<T>) words = std::string("the names of ") + T::map_key + ", or " + words;
     return words;
   }
 }

@@ -253,12 +253,6 @@ Tree as_entry(const char* key, const Tree& value) {
   return map;
 }
 
-bool has_other_keys_only(const Tree& map, const std::vector<std::string>& keys) {
-  return !map.map.empty() && std::ranges::none_of(map.map, [&](const Tree::Entry& entry) {
-    return std::ranges::find(keys, entry.key) != keys.end();
-  });
-}
-
 std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
                                        Findings& f) {
   using Entries = std::vector<const Tree::Entry*>;

@@ -68,8 +68,6 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
 
 // A map with this one entry, in the place of its value.
 Tree as_entry(const char* key, const Tree& value);
-// Whether a map has entries and none of these keys.
-bool has_other_keys_only(const Tree& map, const std::vector<std::string>& keys);
 
 // The value of the member's key or of its former key: the one of the overriding file if there are
 // both; nullptr if there is neither. Both in one file are an error.
@@ -261,10 +259,6 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     }
     if constexpr (ShortenedList<T>) {
       if (tree.kind == Kind::list) return read_struct(as_entry(T::list_key, tree), path, out, f);
-    }
-    if constexpr (ShortenedMap<T>) {
-      if (tree.kind == Kind::map && has_other_keys_only(tree, keys_of<T>()))
-        return read_struct(as_entry(T::map_key, tree), path, out, f);
     }
     // an empty value is read as a map without keys
     if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();

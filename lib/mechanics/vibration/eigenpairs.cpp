@@ -69,8 +69,7 @@ double largest_quotient(const SparseX& K, const SparseX& M) {
 
 class BlockKrylov {
  public:
-  BlockKrylov(const LinearSolver& solver, const SparseX& M, int block)
-      : solver_(solver), M_(M) {
+  BlockKrylov(const LinearSolver& solver, const SparseX& M, int block) : solver_(solver), M_(M) {
     const Eigen::Index n = M.rows();
     // The same vectors on every machine.
     std::mt19937_64 random(20240601);

@@ -134,7 +134,8 @@ class Columns {
       }
       const int touch = touch_of[static_cast<std::size_t>(node)];
       MatX basis = Mat3::Identity();
-      if (touch >= 0) basis = movements_left(touches[static_cast<std::size_t>(touch)].held, is_free);
+      if (touch >= 0)
+        basis = movements_left(touches[static_cast<std::size_t>(touch)].held, is_free);
       for (Eigen::Index c = 0; c < basis.cols(); ++c) {
         if (touch < 0 && !is_free[c]) continue;
         for (int j = 0; j < 3; ++j) {

@@ -24,8 +24,8 @@ namespace langer {
 
 // What oscillates: an indenter, or nodes of the body as a whole.
 struct Driver {
-  int contact = -1;        // index of Statics::contacts(), or
-  std::vector<int> nodes;  // of the body that is solved, which have unknowns of their own
+  int contact = -1;           // index of Statics::contacts(), or
+  std::vector<int> nodes;     // of the body that is solved, which have unknowns of their own
   Vec3 along = Vec3::Zero();  // of length 1
 };
 

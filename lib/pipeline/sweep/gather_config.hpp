@@ -41,9 +41,12 @@ struct GatherMember {
   }
 };
 
-// The rows of the table: members of the sweep, or parameters of one fit.
-enum class GatherRows { members, parameters };
-constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
+// The rows of the table: members of the sweep, parameters of one fit, or frequencies or modes of
+// each member.
+enum class GatherRows { members, parameters, frequencies, modes };
+constexpr auto names(GatherRows) {
+  return std::array{"members", "parameters", "frequencies", "modes"};
+}
 
 // The config of gather. Without any key the table has all quantities of all files.
 struct GatherConfig {
@@ -57,7 +60,8 @@ struct GatherConfig {
   static void fields(auto& v) {
     v(&GatherConfig::rows, "rows", unit::none,
       "members: one for each file; parameters: one for each fitted parameter of one fit, with its "
-      "true value (of synthetic data), standard error and 95 % interval");
+      "true value (of synthetic data), standard error and 95 % interval; frequencies: one for each "
+      "frequency of each solution with `harmonic`; modes: one for each mode of each with `modes`");
     v(&GatherConfig::columns, "columns", unit::none,
       "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
@@ -81,6 +85,12 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
       !columns.empty() || !axes.empty() || !figures.empty() || !maps.empty();
   if (rows == GatherRows::parameters && has_own_columns)
     all.push_back({"rows", "parameters, together with columns, axes, figures or maps",
+                   "none of them", "the table has columns of its own"});
+  const bool of_vibrations = rows == GatherRows::frequencies || rows == GatherRows::modes;
+  bool analysed = false;
+  for (const GatherAxis& axis : axes) analysed = analysed || axis.design || axis.samples;
+  if (of_vibrations && (!columns.empty() || !maps.empty() || analysed))
+    all.push_back({"rows", "rows of vibrations, together with columns, maps, a design or samples",
                    "none of them", "the table has columns of its own"});
   const std::string one_each = "one for each of the " + std::to_string(axes.size()) + " axes";
   for (std::size_t i = 0; i < members.size(); ++i)

@@ -18,6 +18,14 @@ std::vector<double> flat(const std::vector<std::vector<Vec3>>& fields) {
   return values;
 }
 
+// Numbers in another unit are refused, as everywhere in a solution.
+std::vector<double> read_in_unit(const h5::Group& group, const std::string& name,
+                                 const h5::Shape& shape, const std::string& unit) {
+  if (group.has(name) && group.unit(name) != unit)
+    group.refuse(name, "found the unit " + group.unit(name), unit);
+  return group.read_finite(name, shape);
+}
+
 void write_modes(const h5::Group& group, const ModesRecord& modes) {
   const std::size_t n = modes.frequency.size();
   group.write<double>("frequency", {n}, modes.frequency, "Hz");
@@ -32,15 +40,15 @@ void write_modes(const h5::Group& group, const ModesRecord& modes) {
 
 ModesRecord read_modes(const h5::Group& group, std::size_t n_nodes) {
   ModesRecord modes;
-  modes.frequency = group.read_finite("frequency", {h5::any});
+  modes.frequency = read_in_unit(group, "frequency", {h5::any}, "Hz");
   const std::size_t n = modes.frequency.size();
-  modes.growth = group.read_finite("growth", {n});
+  modes.growth = read_in_unit(group, "growth", {n}, "1/s");
   for (const std::int64_t breaks : group.read<std::int64_t>("breaks_symmetry", {n}).values) {
     if (breaks != 0 && breaks != 1)
       group.refuse("breaks_symmetry", std::to_string(breaks), "0 or 1");
     modes.breaks_symmetry.push_back(static_cast<int>(breaks));
   }
-  const std::vector<double> shapes = group.read_finite("shape", {n, n_nodes, 3});
+  const std::vector<double> shapes = read_in_unit(group, "shape", {n, n_nodes, 3}, "-");
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<Vec3>& shape = modes.shape.emplace_back();
     for (std::size_t a = 0; a < n_nodes; ++a)
@@ -70,15 +78,13 @@ VibrationRecord read_vibration(const h5::Group& root, std::size_t n_nodes) {
   const h5::Group group = root.group("harmonic");
   HarmonicRecord& harmonic = record.harmonic.emplace();
   harmonic.driver = group.text_attribute("driver");
-  harmonic.frequency = group.read_finite("frequency", {h5::any});
-  harmonic.storage = group.read_finite("storage", {harmonic.frequency.size()});
-  harmonic.loss = group.read_finite("loss", {harmonic.frequency.size()});
+  harmonic.frequency = read_in_unit(group, "frequency", {h5::any}, "Hz");
+  harmonic.storage = read_in_unit(group, "storage", {harmonic.frequency.size()}, "N/mm");
+  harmonic.loss = read_in_unit(group, "loss", {harmonic.frequency.size()}, "N/mm");
   return record;
 }
 
-VibrationRecord read_vibration(const std::string& path) {
-  return SolutionReader(path).vibration();
-}
+VibrationRecord read_vibration(const std::string& path) { return SolutionReader(path).vibration(); }
 
 std::vector<Column> columns_of(const ModesRecord& record) {
   Column mode{"mode", "-", {}};
@@ -98,8 +104,7 @@ std::vector<Column> columns_of(const ModesRecord& record) {
 std::vector<Column> columns_of(const HarmonicRecord& record) {
   Column phase{"phase", "deg", {}};
   for (std::size_t i = 0; i < record.frequency.size(); ++i)
-    phase.values.push_back(180 / std::numbers::pi *
-                           std::atan2(record.loss[i], record.storage[i]));
+    phase.values.push_back(180 / std::numbers::pi * std::atan2(record.loss[i], record.storage[i]));
   return {{"frequency", "Hz", record.frequency},
           {"storage_N_mm", "-", record.storage},
           {"loss_N_mm", "-", record.loss},

@@ -18,11 +18,11 @@ class Group;
 }
 
 struct ModesRecord {
-  std::vector<double> frequency;           // [Hz], 0 where unstable
-  std::vector<double> growth;              // [1/s], 0 where stable
-  std::vector<int> breaks_symmetry;        // 1: a movement that symmetry of the state does not have
-  std::vector<std::vector<Vec3>> shape;    // largest movement of a node 1
-  bool counted = false;                    // shown complete; not in the file
+  std::vector<double> frequency;         // [Hz], 0 where unstable
+  std::vector<double> growth;            // [1/s], 0 where stable
+  std::vector<int> breaks_symmetry;      // 1: a movement that symmetry of the state does not have
+  std::vector<std::vector<Vec3>> shape;  // largest movement of a node 1
+  bool counted = false;                  // shown complete; not in the file
 };
 
 struct HarmonicRecord {

@@ -39,7 +39,8 @@ struct FrequenciesConfig {
     v(&FrequenciesConfig::to, "to", cycles, "last frequency of a range", positive);
     v(&FrequenciesConfig::count, "count", unit::none, "frequencies of a range, both ends included",
       between(1, 10000));
-    v(&FrequenciesConfig::scale, "scale", unit::none, "log: at equal ratios; linear: at equal steps");
+    v(&FrequenciesConfig::scale, "scale", unit::none,
+      "log: at equal ratios; linear: at equal steps");
   }
   std::vector<Complaint> complaints() const {
     if (!list.empty() && (from || to))
@@ -48,8 +49,7 @@ struct FrequenciesConfig {
     if (!from || !to)
       return {{"", "found no frequencies", "[1, 10, 100] or {from: 1, to: 1000, count: 20}", ""}};
     if (*to < *from) return {{"to", "found a frequency below from", "from or more", ""}};
-    if (count == 1 && *to != *from)
-      return {{"count", "found 1 of a range", "2 or more", ""}};
+    if (count == 1 && *to != *from) return {{"count", "found 1 of a range", "2 or more", ""}};
     return {};
   }
   std::vector<double> values() const {  // [Hz]

@@ -17,8 +17,8 @@ namespace {
 
 [[noreturn]] void refuse(const Run::Where& where, const std::string& key, std::string found,
                          std::string expected, std::string hint = "") {
-  throw Failure(Exit::config, Error{where(key), key, std::move(found), std::move(expected),
-                                    std::move(hint)});
+  throw Failure(Exit::config,
+                Error{where(key), key, std::move(found), std::move(expected), std::move(hint)});
 }
 
 constexpr const char* whole_body = "symmetry: none solves the whole body";
@@ -115,9 +115,9 @@ std::vector<Vec3> whole_shape(const Run& run, const Mode& mode) {
 }
 
 ModesRecord modes_record(const SolveConfig& config, Run& run, const std::vector<double>& density) {
-  const Modes found = modes_of(run.body, run.statics, density,
-                               run.reduction.symmetry_breaking_dofs(), config.modes->count,
-                               config.blas_threads);
+  const Modes found =
+      modes_of(run.body, run.statics, density, run.reduction.symmetry_breaking_dofs(),
+               config.modes->count, config.blas_threads);
   ModesRecord record;
   record.counted = found.counted;
   for (const Mode& mode : found.modes) {
@@ -160,25 +160,19 @@ HarmonicRecord harmonic_record(const SolveConfig& config, Run& run,
 
 std::vector<double> densities(const DynamicsConfig& config, const Mesh& mesh,
                               const Run::Where& where) {
-  const Densities& given = *config.density_kg_m3;
   std::vector<std::string> bodies = mesh.bodies;
   if (bodies.empty()) bodies.push_back("body");
-  for (const auto& [name, density] : given.bodies) {
+  for (const auto& [name, density] : config.densities_kg_m3) {
     if (std::ranges::find(bodies, name) != bodies.end()) continue;
-    refuse(where, "dynamics.density_kg_m3", "found \"" + name + "\"",
+    refuse(where, "dynamics.densities_kg_m3." + name, "found \"" + name + "\"",
            "a body of the mesh: " + list_words(bodies), did_you_mean(nearest(name, bodies)));
   }
   std::vector<double> out;
   for (const std::string& name : bodies) {
-    const auto own = given.bodies.find(name);
-    if (own != given.bodies.end()) {
-      out.push_back(own->second * tonne_per_mm3);
-    } else if (given.all) {
-      out.push_back(*given.all * tonne_per_mm3);
-    } else {
-      refuse(where, "dynamics.density_kg_m3", "no density for the body \"" + name + "\"",
-             "one for each body, or all: one for those not named");
-    }
+    const auto own = config.densities_kg_m3.find(name);
+    double density = config.density_kg_m3;
+    if (own != config.densities_kg_m3.end()) density = own->second;
+    out.push_back(density * tonne_per_mm3);
   }
   return out;
 }
@@ -226,8 +220,8 @@ std::vector<std::string> in_words(const VibrationRecord& record, const Run& run)
     std::vector<std::string> words;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, modes.frequency.size()); ++i)
       words.push_back(fmt::format("{:.4g}", modes.frequency[i]));
-    std::string line = fmt::format("modes: {} from {} Hz on", modes.frequency.size(),
-                                   fmt::join(words, ", "));
+    std::string line =
+        fmt::format("modes: {} from {} Hz on", modes.frequency.size(), fmt::join(words, ", "));
     if (modes.counted) line += "; none is missing among them";
     if (run.mesh.section) line += "; of the section: others leave its plane";
     lines.push_back(line);
