@@ -148,21 +148,24 @@ class Columns {
     }
   }
 
-  // Moves what touches the indenter with it. False where a support or symmetry holds such a node.
+  // Moves what touches the indenter with it. False, and nothing is added, where a support or
+  // symmetry holds such a node: then the indenter cannot move.
   bool add_indenter(const std::vector<Touch>& touches, int contact, const Vec3& along) {
-    bool moves = true;
     for (const Touch& touch : touches) {
-      if (touch.contact == contact) moves = add_node(touch.node, along) && moves;
+      if (touch.contact == contact && !moves_along(touch.node, along)) return false;
+    }
+    for (const Touch& touch : touches) {
+      if (touch.contact == contact) add_node(touch.node, along);
     }
     ++n_;
-    return moves;
+    return true;
   }
 
   // Moves nodes of the body as a whole, instead of their own movements in that direction.
   bool add_nodes(const std::vector<int>& nodes, const Vec3& along) {
     std::vector<char> driven(static_cast<std::size_t>(dofs_.n_free()), 0);
-    bool moves = true;
     for (int node : nodes) {
+      if (!moves_along(node, along)) return false;
       for (int j = 0; j < 3; ++j) {
         const int row = dofs_.equation[3 * node + j];
         if (along[j] != 0 && row >= 0) driven[static_cast<std::size_t>(row)] = 1;
@@ -173,23 +176,26 @@ class Columns {
         return driven[static_cast<std::size_t>(entry.row())];
       });
     }
-    for (int node : nodes) moves = add_node(node, along) && moves;
+    for (int node : nodes) add_node(node, along);
     ++n_;
-    return moves;
+    return true;
   }
 
   SparseX P() const { return matrix(P_); }
   SparseX R() const { return matrix(R_); }
 
  private:
-  bool add_node(int node, const Vec3& along) {
+  bool moves_along(int node, const Vec3& along) const {
     for (int j = 0; j < 3; ++j) {
-      if (along[j] == 0) continue;
-      const int row = dofs_.equation[3 * node + j];
-      if (row < 0) return false;
-      P_.emplace_back(row, n_, along[j]);
+      if (along[j] != 0 && dofs_.equation[3 * node + j] < 0) return false;
     }
     return true;
+  }
+
+  void add_node(int node, const Vec3& along) {
+    for (int j = 0; j < 3; ++j) {
+      if (along[j] != 0) P_.emplace_back(dofs_.equation[3 * node + j], n_, along[j]);
+    }
   }
 
   // Columns that erase_if() emptied are left out.
