@@ -18,6 +18,7 @@
 #include "results/plot/gnuplot.hpp"
 #include "results/plot/pictures.hpp"
 #include "results/store/material_file.hpp"
+#include "results/store/vibration_record.hpp"
 #include "stage.hpp"
 
 namespace langer {
@@ -46,12 +47,21 @@ std::vector<const SurfaceMap*> maps_of(const Job<GatherConfig>& job, const Sweep
   return found;
 }
 
-// The columns of a member that figures may draw: the columns and maps of curves.h5, or strain,
-// measured stress, model and error of a fit. Other files have none.
+// The columns of a member that figures may draw: the columns and maps of curves.h5, those of a
+// solution over frequency, or strain, measured stress, model and error of a fit. Other files have
+// none.
 Curves curves_in(const std::string& file) {
   const std::string schema = read_origin(file).schema;
   if (schema == curves_schema.name) return read_curves(file).curves;
   Curves curves;
+  if (schema == solution_schema.name) {
+    if (const auto harmonic = read_vibration(file).harmonic) {
+      curves.columns = columns_of(*harmonic);
+      curves.columns[1] = {"storage", "N/mm", harmonic->storage};
+      curves.columns[2] = {"loss", "N/mm", harmonic->loss};
+    }
+    return curves;
+  }
   if (schema != material_schema.name) return curves;
   const std::optional<FitRecord> fit = read_material(file).fit;
   if (!fit) return curves;
@@ -219,6 +229,41 @@ std::vector<Summary> gather_table(const Job<GatherConfig>& job) {
   return {};
 }
 
+// The table of `rows: frequencies` or `modes`: those of each solution, one member after another.
+Sweep stacked_vibrations(const Job<GatherConfig>& job, const std::vector<GatherInput>& members,
+                         std::vector<SweepAxis> axes) {
+  const bool of_frequencies = job.config.rows == GatherRows::frequencies;
+  const std::string word = of_frequencies ? "harmonic" : "modes";
+  Sweep sweep;
+  sweep.axes = std::move(axes);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::string& file = job.inputs.at("curves")[i];
+    VibrationRecord vibration;
+    if (read_origin(file).schema == solution_schema.name) vibration = read_vibration(file);
+    std::vector<Column> columns;
+    if (of_frequencies && vibration.harmonic) columns = columns_of(*vibration.harmonic);
+    if (!of_frequencies && vibration.modes) columns = columns_of(*vibration.modes);
+    if (columns.empty())
+      throw Failure(Exit::config,
+                    Error{job.where("rows"), "rows", fmt::format("{} has no /{}", file, word),
+                          "solutions with the key " + word, ""});
+    const std::size_t rows = columns.front().values.size();
+    sweep.members.insert(sweep.members.end(), rows, members[i].path);
+    for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+      std::vector<std::string>& values = sweep.axes[a].values;
+      values.insert(values.end(), rows, members[i].at[a]);
+    }
+    if (sweep.columns.empty()) {
+      for (const Column& column : columns) sweep.columns.push_back({column.name, column.unit, {}});
+    }
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      std::vector<double>& values = sweep.columns[c].values;
+      values.insert(values.end(), columns[c].values.begin(), columns[c].values.end());
+    }
+  }
+  return sweep;
+}
+
 // Reads the summary of each file, with the name and the axis values that the config gives it. If
 // anything is drawn, the curves of each file are kept, too.
 std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& members) {
@@ -254,13 +299,20 @@ std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& mem
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const GatherConfig& config = job.config;
   if (config.rows == GatherRows::parameters) return gather_parameters(job);
-  if (config.rows != GatherRows::members) return gather_table(job);
+  const bool of_vibrations =
+      config.rows == GatherRows::frequencies || config.rows == GatherRows::modes;
+  if (config.rows != GatherRows::members && !of_vibrations) return gather_table(job);
   Members members;
   const std::vector<GatherInput> inputs = read_members(job, members);
   std::vector<SweepAxis> axes;
   for (const GatherAxis& a : config.axes)
     axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
-  Sweep sweep = gather(config.columns, axes, inputs, job.where("columns"));
+  Sweep sweep;
+  if (config.rows == GatherRows::members) {
+    sweep = gather(config.columns, axes, inputs, job.where("columns"));
+  } else {
+    sweep = stacked_vibrations(job, inputs, axes);
+  }
 
   // Analyses of the members: effects of a design, or the spread over samples.
   Pictures pictures(job.side_file(""), config.figure_style);

@@ -11,6 +11,7 @@
 #include "core/hdf5/seal.hpp"
 #include "export/write_decks.hpp"
 #include "mechanics/material/ellipticity.hpp"
+#include "mechanics/mesh/bounding_box.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "results/plot/pictures.hpp"
 #include "results/store/curves_file.hpp"
@@ -274,6 +275,24 @@ StepState pictured_state(const Solution& solution, const ContactStates& contacts
   return state;
 }
 
+// The state with a natural vibration at its largest movement added to it.
+StepState with_mode(const Job<PostConfig>& job, const Solution& solution, const std::string& key,
+                    const RenderChoice& choice, StepState state) {
+  if (!choice.mode) return state;
+  const VibrationRecord vibration = solution.reader.vibration();
+  const std::size_t mode = static_cast<std::size_t>(*choice.mode);
+  std::size_t known = 0;
+  if (vibration.modes) known = vibration.modes->shape.size();
+  if (mode > known)
+    refuse(job, {{key + ".mode", fmt::format("found {}, and the solution has {} modes", mode, known),
+                  "a mode of the solution", "the key `modes` of the solve config computes them"}});
+  const double size = bounding_box(solution.body.mesh().X).size().norm();
+  const std::vector<Vec3>& shape = vibration.modes->shape[mode - 1];
+  for (std::size_t i = 0; i < state.u.size(); ++i)
+    state.u[i] += choice.amplitude * size * shape[i];
+  return state;
+}
+
 // The content of curves.h5: the shown columns, a curve of each column over the first one, maps of
 // the surface, and the summary.
 Curves curves_of(const Job<PostConfig>& job, const Solution& solution,
@@ -398,7 +417,9 @@ void draw_renders(const Job<PostConfig>& job, const Solution& solution, const Re
                   const std::map<std::string, int>& rows, Pictures& pictures) {
   for (const auto& [name, keyed] : renders) {
     const RenderChoice& choice = keyed.second;
-    const StepState state = pictured_state(solution, contacts, rows.at(name), choice.field);
+    const StepState state =
+        with_mode(job, solution, keyed.first, choice,
+                  pictured_state(solution, contacts, rows.at(name), choice.field));
     pictures.draw(
         name, drawing_of(solution, indenters, state, choice, job.config.stress, pictures.look()));
   }

@@ -9,6 +9,7 @@
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
+#include "core/base/output_file.hpp"
 #include "identification/inverse/uncertainty.hpp"
 #include "results/store/step_journal.hpp"
 #include "scene/model/material_review.hpp"
@@ -17,6 +18,7 @@
 #include "scene/run/mirrored_solution.hpp"
 #include "scene/run/run_words.hpp"
 #include "scene/run/step_record.hpp"
+#include "scene/run/vibration.hpp"
 #include "stage.hpp"
 
 namespace langer {
@@ -66,6 +68,7 @@ void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
 std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
   const Job<SolveConfig>& job = input.job;
   if (!job.has("mirror") || job.dry_run || !job.config.sensitivity.empty()) return std::nullopt;
+  if (job.config.modes || job.config.harmonic) return std::nullopt;
   SolveConfig config = job.config;
   if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
   const MirrorTask task{config,          input.material,      job.where, job.identity,
@@ -120,6 +123,20 @@ RunEnd follow_load_path(const Job<SolveConfig>& job, Observers& observers, Progr
   return observers.recording->follow(job.voice(), progress, observers.loose);
 }
 
+// Vibrations about the state at the end of the path, in the solution and as tables beside it.
+Summaries add_vibration(const Job<SolveConfig>& job, const SolveConfig& config, Run& run,
+                        Recording& recording) {
+  const auto vibration = vibration_of(config, run, job.where);
+  if (!vibration) return {};
+  recording.write_vibration(*vibration);
+  for (const std::string& line : in_words(*vibration, run)) job.say("{}", line);
+  if (vibration->modes)
+    write_text_file(job.side_file("modes.csv"), csv(columns_of(*vibration->modes)));
+  if (vibration->harmonic)
+    write_text_file(job.side_file("harmonic.csv"), csv(columns_of(*vibration->harmonic)));
+  return summary_of(*vibration);
+}
+
 // Solves the current model. Returns its results, or nothing if another model has to be solved.
 std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
@@ -160,13 +177,15 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
     if (interrupted()) recording.stopped_in_estimate();
     return std::nullopt;
   }
+  const Summaries of_vibration = add_vibration(job, config, run, recording);
   during_estimate.reset();
 
   const auto forces = observers.uncertainty->of(end.last);
   report_forces(job.voice(), input.parameters, forces, errors.at_end);
   const Summaries results =
       joined({observers.sensitivity->summary(end.last), summary_of(forces),
-              summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary()});
+              summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary(),
+              of_vibration});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
 
@@ -208,5 +227,6 @@ Summaries solve(const Job<SolveConfig>& job) {
 }  // namespace langer
 
 int main(int argc, char** argv) {
-  return langer::run_stage<langer::SolveConfig>(argc, argv, "solve", langer::solve);
+  return langer::run_stage<langer::SolveConfig>(argc, argv, "solve", langer::solve,
+                                                langer::vibration_files);
 }

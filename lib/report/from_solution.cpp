@@ -220,6 +220,32 @@ void add_estimates(const AddVerdict& add, const History& history) {
                                    largest(history, name)));
 }
 
+// Natural frequencies in words, and curves of the complex stiffness over frequency.
+void add_vibration(const AddVerdict& add, std::map<std::string, Chart>& charts,
+                   const Source& source, const VibrationRecord& vibration) {
+  if (vibration.modes) {
+    std::vector<std::string> words;
+    for (double frequency : vibration.modes->frequency) {
+      if (words.size() < 6) words.push_back(fmt::format("{:.4g}", frequency));
+    }
+    add(Level::note,
+        fmt::format("natural frequencies about the last state: {} Hz{}", fmt::join(words, ", "),
+                    words.size() < vibration.modes->frequency.size() ? ", ..." : ""));
+    const bool grows = std::ranges::any_of(vibration.modes->growth, is_positive);
+    if (grows) add(Level::warning, "the last state is unstable: movements about it grow");
+  }
+  if (!vibration.harmonic) return;
+  const HarmonicRecord& harmonic = *vibration.harmonic;
+  const auto add_curve = [&](const std::string& name, const std::vector<double>& values) {
+    const Chart empty{"path", name, "frequency", "Hz", name, "N/mm", {}, true};
+    Chart& chart = charts.try_emplace(name, empty).first->second;
+    chart.ordered = chart.ordered && source.numbered;
+    chart.series.push_back({source.label, harmonic.frequency, values, false});
+  };
+  add_curve("storage stiffness of " + harmonic.driver, harmonic.storage);
+  add_curve("loss stiffness of " + harmonic.driver, harmonic.loss);
+}
+
 // Whether a column of the history deserves a chart.
 bool is_charted(const std::string& name, const std::vector<double>& values) {
   if (name == "t" || name == "next_increment" || name.starts_with("weakest")) return false;
@@ -274,6 +300,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
       chart.ordered = chart.ordered && source.numbered;
       chart.series.push_back({source.label, history.at("t"), values, false});
     }
+    add_vibration(add, charts, source, solution.vibration());
     if (has_three())
       page.bodies.push_back(body_view(source.label, solution, source.path, config,
                                       0.9 * budget / static_cast<double>(sources.size())));

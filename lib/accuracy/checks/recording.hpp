@@ -43,6 +43,7 @@ class Recording {
 
   [[noreturn]] void stopped_in_estimate() const;
 
+  void write_vibration(const VibrationRecord& record) { file_.write_vibration(record); }
   void finish(const std::vector<Summary>& said, const SolutionWriter::Histories& found_later) {
     file_.finish(continues() ? std::nullopt : std::optional(cost_so_far()), said, found_later);
   }

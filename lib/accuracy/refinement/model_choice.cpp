@@ -28,7 +28,8 @@ ModelChoice::ModelChoice(const Voice& voice, const SolveConfig& config, const st
       dry_(dry),
       section_(voice, of_scene(config, file), material, where_, dry),
       accuracy_(of_model()),
-      at_a_point_(config.homogeneous == Homogeneous::automatic) {}
+      at_a_point_(config.homogeneous == Homogeneous::automatic && !config.modes &&
+                  !config.harmonic) {}
 
 Accuracy ModelChoice::of_model() const {
   return Accuracy(voice_, section_.taken() ? section_.config() : asked_, material_, where_, dry_);

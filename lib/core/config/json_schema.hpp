@@ -243,6 +243,8 @@ Tree value_schema(const Member& m, bool whole, Definitions& definitions) {
   } else if constexpr (Shortened<T>) {
     return object(
         {{"anyOf", list({types({"string", "number"}), struct_schema<T>(whole, definitions)})}});
+  } else if constexpr (ShortenedList<T>) {
+    return object({{"anyOf", list({types({"array"}), struct_schema<T>(whole, definitions)})}});
   } else
     return struct_schema<T>(whole, definitions);
 }

@@ -94,6 +94,12 @@ concept Shortened = Listed<T> && requires {
   { T::short_key } -> std::convertible_to<const char*>;
 };
 
+// a struct that a list may stand for: the value of one of its keys
+template <class T>
+concept ShortenedList = Listed<T> && requires {
+  { T::list_key } -> std::convertible_to<const char*>;
+};
+
 // a struct with rules between its keys
 template <class T>
 concept Complaining = requires(const T& t) {
@@ -227,6 +233,8 @@ std::string type_words(const Member& m) {
     std::string words = "a map with the keys " + list_words(keys_of<T>());
     if constexpr (Shortened<T>)
       words = std::string("the value of ") + T::short_key + ", or " + words;
+    if constexpr (ShortenedList<T>)
+      words = std::string("the list of ") + T::list_key + ", or " + words;
     return words;
   }
 }

@@ -243,6 +243,16 @@ Tree part_of(const Tree& tree, const std::vector<std::string>& keys) {
   return part;
 }
 
+Tree as_entry(const char* key, const Tree& value) {
+  Tree map;
+  map.kind = Tree::Kind::map;
+  map.place = value.place;
+  map.base = value.base;
+  map.layers = value.layers;
+  map.map.push_back({key, value});
+  return map;
+}
+
 std::vector<const Tree::Entry*> chosen(const Tree& tree, const std::string& path, bool is_sum,
                                        Findings& f) {
   using Entries = std::vector<const Tree::Entry*>;

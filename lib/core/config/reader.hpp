@@ -66,6 +66,9 @@ std::string item(const std::string& path, std::size_t index);
 template <class T>
 void read_value(const Tree& tree, const std::string& path, const Member& m, T& out, Findings& f);
 
+// A map with this one entry, in the place of its value.
+Tree as_entry(const char* key, const Tree& value);
+
 // The value of the member's key or of its former key: the one of the overriding file if there are
 // both; nullptr if there is neither. Both in one file are an error.
 const Tree* find_member(const Tree& tree, const std::string& path, const Member& m, Findings& f);
@@ -251,15 +254,11 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     read_named_things(tree, path, m, out, f);
   } else {
     if constexpr (Shortened<T>) {
-      if (tree.kind == Kind::scalar) {
-        Tree map;
-        map.kind = Kind::map;
-        map.place = tree.place;
-        map.base = tree.base;
-        map.layers = tree.layers;
-        map.map.push_back({T::short_key, tree});
-        return read_struct(map, path, out, f);
-      }
+      if (tree.kind == Kind::scalar)
+        return read_struct(as_entry(T::short_key, tree), path, out, f);
+    }
+    if constexpr (ShortenedList<T>) {
+      if (tree.kind == Kind::list) return read_struct(as_entry(T::list_key, tree), path, out, f);
     }
     // an empty value is read as a map without keys
     if (tree.kind != Kind::map && tree.kind != Kind::null) return wrong_kind();

@@ -37,6 +37,11 @@ void Assembler::begin_increment(double seconds) {
   packets_.pack_history(viscous_);
 }
 
+void Assembler::begin_small_movements(const std::function<double(const ViscousBranch&)>& follow) {
+  viscous_.begin_small_movements(follow);
+  packets_.pack_history(viscous_);
+}
+
 bool Assembler::assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
   // A thread evaluates a chunk of blocks before it waits for its turn to add them; the chunk stays
   // in its cache.

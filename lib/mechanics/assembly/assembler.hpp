@@ -15,6 +15,7 @@
 // of this rank only; forces, energy and bounds are those of the whole body on every rank.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -113,6 +114,9 @@ class Assembler {
   // Increments of a viscous body, of `seconds`. Without effect on an elastic body.
   bool viscous() const { return viscous_.present(); }
   void begin_increment(double seconds);
+  // Small movements away from the accepted state (mechanics/vibration): the stiffness has `follow`
+  // of each branch added to the isochoric moduli, and the stress of the state stays.
+  void begin_small_movements(const std::function<double(const ViscousBranch&)>& follow);
   double end_increment(const VecX& u) { return viscous_.end(u); }  // found; error of the time step
   void accept_increment(const VecX& u0, const VecX& u) { viscous_.accept(u0, u); }
   const std::optional<ViscousPoints>& viscous_points() const { return viscous_.points(); }

@@ -13,6 +13,15 @@ void ViscousState::begin(double seconds) {
   if (points_) points_->begin(seconds);
 }
 
+void ViscousState::begin_small_movements(
+    const std::function<double(const ViscousBranch&)>& follow) {
+  if (!points_) return;
+  const auto step = [&](const ViscousBranch& branch) {
+    return BranchStep{1, follow(branch)};
+  };
+  points_->begin(step, [](const ViscousBranch&) { return 0.0; });
+}
+
 double ViscousState::end(const VecX& u) {
   if (!points_) return 0;
   for (int e = 0; e < body_.mesh().n_cells(); ++e) {

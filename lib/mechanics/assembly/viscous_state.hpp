@@ -6,6 +6,7 @@
 //   accept(u0, u)    the state found becomes the one that the next increment begins with
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "mechanics/assembly/body_model.hpp"
@@ -23,6 +24,9 @@ class ViscousState {
   const std::optional<ViscousPoints>& points() const { return points_; }
 
   void begin(double seconds);
+  // Small movements away from the accepted state: each branch answers with `follow` of its
+  // isochoric stress, and what it bears there stays.
+  void begin_small_movements(const std::function<double(const ViscousBranch&)>& follow);
   double end(const VecX& u);
   void accept(const VecX& u0, const VecX& u);
   double work() const;  // integral of the branch stresses over the strain since rest [N mm]

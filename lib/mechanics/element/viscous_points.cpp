@@ -50,13 +50,21 @@ ViscousPoints::ViscousPoints(const std::vector<Material>& materials, const std::
 // The factors of a step depend on its length alone: what a branch keeps of its stress, how it
 // follows the new elastic stress, and how large the error of the step is.
 void ViscousPoints::begin(double seconds) {
+  const auto step = [seconds](const ViscousBranch& branch) {
+    return branch_step(branch, seconds);
+  };
+  begin(step, [seconds](const ViscousBranch& branch) { return branch_step_error(branch, seconds); });
+}
+
+void ViscousPoints::begin(const std::function<BranchStep(const ViscousBranch&)>& step,
+                          const std::function<double(const ViscousBranch&)>& error) {
   for (Law& law : laws_) {
     law.steps.clear();
     law.step_error.clear();
     law.amplified = {};
     for (const ViscousBranch& branch : law.branches) {
-      law.steps.push_back(branch_step(branch, seconds));
-      law.step_error.push_back(branch_step_error(branch, seconds));
+      law.steps.push_back(step(branch));
+      law.step_error.push_back(error(branch));
       amplify(law.amplified, branch.of, law.steps.back().follow);
     }
   }

@@ -8,6 +8,7 @@
 // An elastic body has none of this.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,10 @@ class ViscousPoints {
                 int n_gauss);
 
   void begin(double seconds);
+  // The same with other steps than those of a duration. keep = 1: the stresses of the branches stay
+  // at the accepted state, and `follow` of each answers movements away from it.
+  void begin(const std::function<BranchStep(const ViscousBranch&)>& step,
+             const std::function<double(const ViscousBranch&)>& error);
   bool has(int e) const { return !law_of(e).branches.empty(); }
   const Amplified& amplified(int e) const { return law_of(e).amplified; }
   Vec6 H(int e, int g) const;

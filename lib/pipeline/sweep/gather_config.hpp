@@ -41,11 +41,21 @@ struct GatherMember {
   }
 };
 
-// The rows of the table: members of the sweep, parameters of one fit, or those of a table that a
-// fit made (results/store/record_table.hpp).
-enum class GatherRows { members, parameters, laws, terms, population, posterior };
+// The rows of the table: members of the sweep, parameters of one fit, those of a table that a fit
+// made (results/store/record_table.hpp), or frequencies or modes of each member.
+enum class GatherRows {
+  members,
+  parameters,
+  laws,
+  terms,
+  population,
+  posterior,
+  frequencies,
+  modes
+};
 constexpr auto names(GatherRows) {
-  return std::array{"members", "parameters", "laws", "terms", "population", "posterior"};
+  return std::array{"members",    "parameters", "laws",        "terms",
+                    "population", "posterior",  "frequencies", "modes"};
 }
 
 // The config of gather. Without any key the table has all quantities of all files.
@@ -62,7 +72,8 @@ struct GatherConfig {
       "members: one for each file; parameters: one for each fitted parameter of one fit, with its "
       "true value (of synthetic data), standard error and 95 % interval; laws, terms, population, "
       "posterior: the table of a fit that compared laws, discovered terms, has specimens or a "
-      "posterior");
+      "posterior; frequencies: one for each frequency of each solution with `harmonic`; modes: one "
+      "for each mode of each with `modes`");
     v(&GatherConfig::columns, "columns", unit::none,
       "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
@@ -84,10 +95,16 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
   std::vector<Complaint> all;
   const bool has_own_columns =
       !columns.empty() || !axes.empty() || !figures.empty() || !maps.empty();
-  if (rows != GatherRows::members && has_own_columns)
+  const bool of_vibrations = rows == GatherRows::frequencies || rows == GatherRows::modes;
+  if (rows != GatherRows::members && !of_vibrations && has_own_columns)
     all.push_back({"rows",
                    std::string(names(rows)[static_cast<std::size_t>(rows)]) +
                        ", together with columns, axes, figures or maps",
+                   "none of them", "the table has columns of its own"});
+  bool analysed = false;
+  for (const GatherAxis& axis : axes) analysed = analysed || axis.design || axis.samples;
+  if (of_vibrations && (!columns.empty() || !maps.empty() || analysed))
+    all.push_back({"rows", "rows of vibrations, together with columns, maps, a design or samples",
                    "none of them", "the table has columns of its own"});
   const std::string one_each = "one for each of the " + std::to_string(axes.size()) + " axes";
   for (std::size_t i = 0; i < members.size(); ++i)

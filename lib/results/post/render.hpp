@@ -50,6 +50,8 @@ struct RenderChoice {
   std::vector<std::string> points;
   bool outline = false, actions = false;
   std::string title;
+  std::optional<int> mode;
+  double amplitude = 0.1;
   static void fields(auto& v) {
     v(&RenderChoice::field, "field", unit::none,
       "quantity of nodes or points that colours the surface; none: the mesh alone");
@@ -69,6 +71,11 @@ struct RenderChoice {
     v(&RenderChoice::actions, "actions", unit::none,
       "draw supports and imposed displacements with their values");
     v(&RenderChoice::title, "title", unit::none, "above the picture");
+    v(&RenderChoice::mode, "mode", unit::none,
+      "draw this natural vibration about the last state (modes in the solve config), from 1 on",
+      at_least(1));
+    v(&RenderChoice::amplitude, "amplitude", unit::none,
+      "of a mode: its largest movement, over the size of the body", between(0, 1));
   }
   std::vector<Complaint> complaints() const;
 };

@@ -18,6 +18,7 @@
 #include "mechanics/mesh/triangles.hpp"
 #include "results/store/identity.hpp"
 #include "results/store/provenance.hpp"
+#include "results/store/vibration_record.hpp"
 
 namespace langer {
 
@@ -99,6 +100,7 @@ class SolutionWriter {
   void append(const StepRecord& record);
   // Notes that this solution is the mirror image of another: by which symmetry, and of which.
   void write_image_of(const std::string& which);
+  void write_vibration(const VibrationRecord& record);  // about the last step
   using Histories = std::map<std::string, std::vector<double>>;  // by name, a value for each step
   // Completes the file. cost: none if several runs computed it. summary: numbers of the whole
   // result. found_later: histories that follow from the whole path.
@@ -121,6 +123,7 @@ class SolutionReader {
   StepRecord step(int i) const;
   std::vector<Summary> summary() const;  // numbers of the whole result: its errors
   const std::string& content_id() const;
+  VibrationRecord vibration() const;  // about the last step; empty where none was asked for
 
  private:
   struct State;

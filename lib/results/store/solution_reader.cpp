@@ -152,6 +152,10 @@ int SolutionReader::n_steps() const { return static_cast<int>(state_->n_steps); 
 std::vector<Summary> SolutionReader::summary() const { return read_summary(state_->file.root()); }
 const std::string& SolutionReader::content_id() const { return state_->id; }
 
+VibrationRecord SolutionReader::vibration() const {
+  return read_vibration(state_->file.root(), state_->header.mesh.X.size());
+}
+
 // Row blocks of n nodes or e elements belong to each step, in the order of the steps.
 StepRecord SolutionReader::step(int index) const {
   const std::size_t i = static_cast<std::size_t>(index);

@@ -333,6 +333,10 @@ void SolutionWriter::write_image_of(const std::string& which) {
   state_->file.root().group("provenance").write_text("image_of", which);
 }
 
+void SolutionWriter::write_vibration(const VibrationRecord& record) {
+  langer::write_vibration(state_->file.root(), record);
+}
+
 namespace {
 
 // Writes the runs that computed the steps, unless all had the config that is in the file.

@@ -130,6 +130,8 @@ std::optional<ReducedScene> ReducedScene::find(
     for (const Generator* g : generators) {
       of_mesh.push_back(g->mesh);
       append(r.words_, " and ", std::string(g->operation.name));
+      r.generators_.push_back(g->mesh.signs);
+      r.centre_ = g->mesh.centre;
       for (int k = 0; k < 3; ++k)
         if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
@@ -215,6 +217,44 @@ std::vector<Dofs> ReducedScene::symmetry_breaking_dofs() const {
     kinds.push_back(number_dofs(quotient_.mesh.n_nodes(), held, ties, quotient_.mesh.hanging).dofs);
   }
   return kinds;
+}
+
+std::vector<Vec3> ReducedScene::whole_movement(const Mesh& whole, const VecX& u, int kind) const {
+  std::vector<Vec3> out;
+  out.reserve(whole.X.size());
+  for (std::size_t i = 0; i < whole.X.size(); ++i) {
+    const Image& image = quotient_.node_image[i];
+    const Vec3 kept = u.segment<3>(3 * static_cast<Eigen::Index>(image.of));
+    if (kind == 0 || generators_.empty()) {
+      out.push_back(image.T * kept);
+      continue;
+    }
+    // Which generators take the kept node to this one: those that change the side it is on.
+    const Vec3 from = quotient_.mesh.X[static_cast<std::size_t>(image.of)] - centre_;
+    const Vec3 to = whole.X[i] - centre_;
+    Vec3 signs = Vec3::Ones();
+    double sign = 1;
+    for (std::size_t g = 0; g < generators_.size(); ++g) {
+      const Vec3 other = generators_[g];
+      int axis = 0;
+      double farthest = 0;
+      for (int k = 0; k < 3; ++k) {
+        if (other[k] > 0 || std::abs(from[k]) <= farthest) continue;
+        axis = k;
+        farthest = std::abs(from[k]);
+      }
+      if (from[axis] * to[axis] >= 0) continue;
+      signs = signs.cwiseProduct(other);
+      if ((kind >> g & 1) != 0) sign = -sign;
+    }
+    out.push_back(sign * signs.cwiseProduct(kept));
+  }
+  for (const HangingNode& h : whole.hanging) {
+    Vec3 mean = Vec3::Zero();
+    for (int n : h.of) mean += 0.25 * out[static_cast<std::size_t>(n)];
+    out[static_cast<std::size_t>(h.node)] = mean;
+  }
+  return out;
 }
 
 // facets of kept cells: a cell's share counts theirs

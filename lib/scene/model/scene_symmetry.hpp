@@ -53,6 +53,12 @@ class ReducedScene {
   // slice: it has no mesh for what leaves its plane.
   std::vector<Dofs> symmetry_breaking_dofs() const;
 
+  // Whole nodes in terms of those of the part, for movements that keep the symmetry.
+  const std::vector<Image>& node_images() const { return quotient_.node_image; }
+  // A movement u (3 n) of the part at the nodes of the whole mesh. kind: 0 keeps the symmetry, k
+  // is that of symmetry_breaking_dofs()[k - 1].
+  std::vector<Vec3> whole_movement(const Mesh& whole, const VecX& u, int kind) const;
+
  private:
   // a candidate of the part as a node of one of the whole body's contacts, and what stands for a
   // candidate of the whole body
@@ -81,6 +87,8 @@ class ReducedScene {
   std::vector<std::vector<Image>> breaking_ties_;  // by kind of movement
   std::vector<int> held_;  // dofs of the part that supports and loads prescribe in the whole body
   Scene scene_;
+  std::vector<Vec3> generators_;  // signs of each
+  Vec3 centre_ = Vec3::Zero();
   std::string words_;
   bool swaps_indenters_ = false;
   std::vector<RigidContact> contacts_;  // of the whole body

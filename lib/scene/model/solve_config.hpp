@@ -20,9 +20,11 @@
 #include "mechanics/nonlinear/kinsol.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
+#include "scene/model/dynamics_config.hpp"
 #include "scene/model/fibre_field.hpp"
 #include "scene/model/load_config.hpp"
 #include "scene/model/mesh_config.hpp"
+#include "scene/model/vibration_config.hpp"
 
 namespace langer {
 
@@ -272,6 +274,9 @@ struct SolveConfig {
   std::vector<std::string> sensitivity;
   std::optional<UncertaintyBy> uncertainty;
   std::optional<CellStress> cell_stress;
+  std::optional<DynamicsConfig> dynamics;
+  std::optional<ModesConfig> modes;
+  std::optional<HarmonicConfig> harmonic;
   int threads = 1, blas_threads = 1;
   static void fields(auto& v) {
     v(&SolveConfig::mesh, "mesh", unit::none,
@@ -333,6 +338,11 @@ struct SolveConfig {
     v(&SolveConfig::cell_stress, "cell_stress", unit::none,
       "writes the Cauchy stress of each cell, its mean over the Gauss points, into the solution: tensor; principal: its principal stresses "
       "and directions as well. Pressure and von Mises stress of cells are always there");
+    v(&SolveConfig::dynamics, "dynamics", unit::none, "inertia of the body");
+    v(&SolveConfig::modes, "modes", unit::none,
+      "natural frequencies and shapes of small vibrations about the state at the end of the path");
+    v(&SolveConfig::harmonic, "harmonic", unit::none,
+      "complex stiffness of an indenter or a face that oscillates about that state");
     v(&SolveConfig::threads, "threads", unit::none,
       "threads of the assembly; the results do not depend on it", between(1, 256));
     v(&SolveConfig::blas_threads, "blas_threads", unit::none,
@@ -349,7 +359,7 @@ struct SolveConfig {
     needs_stiffness(material, "material.matrix");
     for (const auto& [name, body] : materials)
       needs_stiffness(body.material, "materials." + name + ".material.matrix");
-    if (loads.empty() && contacts.empty())
+    if (loads.empty() && contacts.empty() && !modes && !(harmonic && harmonic->face))
       found.push_back({"", "nothing moves", "loads or contacts", ""});
     if (mesh && !mesh->exports.empty())
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
@@ -389,6 +399,7 @@ struct SolveConfig {
            "accuracy chooses their cells; estimate: dual or recovery cuts those of any mesh"});
     complain_of_cuts(found);
     complain_of_seconds(found);
+    complain_of_vibration(found);
     const bool estimates = estimate && *estimate != EstimateBy::none;
     const bool refines = estimate == EstimateBy::refinement;
     std::string judged = asked;
@@ -439,6 +450,31 @@ struct SolveConfig {
     if (!truncation.empty())
       found.push_back({"truncation", "found together with mesh.cuts", "none",
                        "wider bodies are made without cuts"});
+  }
+  void complain_of_vibration(std::vector<Complaint>& found) const {
+    const auto look_at = [&](const std::string& key) {
+      if (!dynamics)
+        found.push_back({key, "found without a density", "dynamics: {density_kg_m3: 1100}", ""});
+      if (reduce == Reduce::automatic)
+        found.push_back({"reduce", "auto, together with " + key, "reduce: none",
+                         "a section vibrates within its plane only"});
+      for (const auto& [name, contact] : contacts) {
+        if (contact.adhesion)
+          found.push_back({key, "found together with contacts." + name + ".adhesion", "one of the two",
+                           "small movements of bonds are not linearised"});
+      }
+    };
+    if (modes) look_at("modes");
+    if (harmonic) look_at("harmonic");
+    if (!harmonic || harmonic->face) return;
+    if (harmonic->indenter) {
+      if (!contacts.count(*harmonic->indenter))
+        found.push_back({"harmonic.indenter", "no contact is called " + *harmonic->indenter,
+                         "a name in contacts", ""});
+    } else if (contacts.size() != 1) {
+      found.push_back({"harmonic", "found " + std::to_string(contacts.size()) + " contacts",
+                       "indenter: the name of one of them, or face: a node set", ""});
+    }
   }
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {

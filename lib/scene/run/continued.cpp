@@ -25,6 +25,8 @@ Identity with_steps_hash(Identity identity, const SolveConfig& config) {
   steps.on_unstable = usual.on_unstable;
   steps.estimate = usual.estimate;
   steps.truncation = usual.truncation;
+  steps.modes = usual.modes;  // vibrations are computed after the path
+  steps.harmonic = usual.harmonic;
   identity.steps_hash = fnv1a(to_yaml(steps, file_name));
   return identity;
 }

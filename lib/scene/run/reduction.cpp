@@ -104,6 +104,11 @@ std::vector<Dofs> Reduction::symmetry_breaking_dofs() const {
 
 const HomogeneousScene* Reduction::point() const { return point_.get(); }
 
+const ReducedScene* Reduction::part() const {
+  if (part_) return &*part_;
+  return nullptr;
+}
+
 Assembler* Reduction::mesh_of_point() const {
   if (point_) return &point_->of_mesh();
   return nullptr;

@@ -52,6 +52,7 @@ class Reduction {
   // kind; empty where there is none.
   std::vector<Dofs> symmetry_breaking_dofs() const;
   const HomogeneousScene* point() const;  // or nullptr
+  const ReducedScene* part() const;       // or nullptr
   Assembler* mesh_of_point() const;       // the mesh that a hexahedron stands for, at the state
                                           // whole() was asked for last; else nullptr
 

@@ -19,6 +19,7 @@ std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image) 
       *config.estimate != EstimateBy::recovery)
     return "the estimate of its errors solves other scenes, or by a factor";
   if (!config.sensitivity.empty() || config.uncertainty) return "derivatives are those of a factor";
+  if (config.modes || config.harmonic) return "vibrations are those of a factor";
   if (may_be_an_image) return "it may be the image of another solution";
   return "";
 }

@@ -1,0 +1,33 @@
+// Natural vibrations of a body about an accepted state: (K - omega^2 M) u = 0.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/assembly/assembler.hpp"
+#include "mechanics/solve/statics.hpp"
+
+namespace langer {
+
+struct Mode {
+  double eigenvalue = 0;  // omega^2 [1/s^2]; negative: the state is unstable in this direction
+  // 0: of the constraints of the body that is solved; k > 0: of the k-th kind of movements that
+  // break its symmetry
+  int kind = 0;
+  VecX shape;  // (3 n) of the body that is solved, largest movement of a node 1 mm
+
+  double frequency() const;  // [Hz]; 0 where unstable
+  double growth() const;     // [1/s] of a movement that grows by exp(growth t); 0 where stable
+};
+
+struct Modes {
+  std::vector<Mode> modes;  // ascending eigenvalues
+  bool counted = false;     // shown complete by counting (mechanics/vibration/eigenpairs.hpp)
+};
+
+// Branches of viscous materials answer as after all has relaxed.
+// breaking: constraints of movements that break the symmetry of a reduced body (ReducedScene).
+// density: by body [t/mm3]. Right after accept() or restore().
+Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double>& density,
+               const std::vector<Dofs>& breaking, int count, int threads = 1);
+
+}  // namespace langer
