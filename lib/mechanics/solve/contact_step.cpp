@@ -55,7 +55,7 @@ bool Statics::factorize_accepted() {
 void Statics::update_tangent() {
   if (K_current_) return;
   const Stopwatch watch(cost_.assembly);
-  const VecX du = remaining_prescribed(u_);
+  const VecX du = imposed_direction(u_);
   equilibrium_.assemble(u_, true, &du);
   K_current_ = true;
 }
@@ -79,7 +79,9 @@ double Statics::cost_ratio() const {
 std::optional<VecX> Statics::correction() {
   update_tangent();
   again_ = false;
-  const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
+  VecX rhs = free_residual();
+  if (!arc_) rhs -= on_free_rows(equilibrium_.K_du());
+  if (bordered()) update_border();
   std::optional<VecX> du;
   if (contact_in_tangent())
     du = solve_with_contact(rhs);
@@ -106,6 +108,7 @@ std::optional<VecX> Statics::correction_again() {
 
 VecX Statics::with_prescribed_dofs(const VecX& free) const {
   VecX du = remaining_prescribed(u_);
+  if (arc_) du += t_next_ * rates_;
   for (Eigen::Index row = 0; row < free.size(); ++row)
     du[equilibrium_.dofs().free[row]] = free[row];
   return du;
@@ -158,10 +161,16 @@ std::optional<VecX> Statics::solve_with_contact(const VecX& rhs) {
 // Follower pressures with a free edge add a skew part S to the symmetric tangent K. The factor of K
 // is a good preconditioner: (I - K^-1 S) du = K^-1 rhs converges in a few iterations.
 VecX Statics::solve_with_follower_loads(const VecX& rhs) {
+  if (!equilibrium_.loads().follow()) return factor_.linear().solve(rhs);
+  return solve_near_factor(
+      rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_))));
+}
+
+// The same where no prescribed dof moves.
+VecX Statics::solve_near_factor(const VecX& known) {
   constexpr double accurate = 1e-6;  // of the correction
   LinearSolver& linear = factor_.linear();
-  if (!equilibrium_.loads().follow()) return linear.solve(rhs);
-  const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
+  if (!equilibrium_.loads().follow()) return linear.solve(known);
   const auto product = [&](const VecX& x) {
     VecX du = VecX::Zero(u_.size());
     for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
@@ -178,6 +187,7 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
     move = solve_with_follower_loads(rhs);
+    if (bordered()) solve_border(move);
   } else {
     LinearSolver::Half half;
     {
