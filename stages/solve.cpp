@@ -6,6 +6,7 @@
 // estimate meets the request. Several ranks can share a run: rank 0 alone prints and writes.
 #include <csignal>
 
+#include "accuracy/checks/branch.hpp"
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
@@ -124,8 +125,15 @@ RunEnd follow_load_path(const Job<SolveConfig>& job, Observers& observers, Progr
 std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
   SolveConfig config = model.config();
-  Run run(model.mesh(), config, input.material, job.where, model.at_a_point(),
+  Mesh mesh = model.mesh();
+  std::optional<Run::Switch> branch;
+  if (config.imperfection && !job.dry_run)
+    mesh = imperfect_mesh(job.voice(), std::move(mesh), config, input.material, job.where);
+  if (config.branch && !job.dry_run)
+    branch = branch_of(job.voice(), mesh, config, input.material, job.where);
+  Run run(std::move(mesh), config, input.material, job.where, model.at_a_point(),
           idle_reason(job).empty());
+  if (branch) run.switch_branch(*branch);
   if (ranks() && !ranks()->first()) {
     run_worker_rank(run, job.dry_run, config);
     return Summaries{};

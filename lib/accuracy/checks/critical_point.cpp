@@ -16,7 +16,7 @@ namespace langer {
 
 namespace {
 
-constexpr double located = 1e-4;  // of the path
+constexpr double located = 1e-4;  // of the path, and of its part up to the point
 constexpr double along = 0.7;     // cosine of mode and path from which on it is a limit point
 
 // Negative eigenvalues of the accepted state, movements that break the symmetry included; -1 of a
@@ -279,14 +279,16 @@ std::string CriticalPoint::words() const {
 }
 
 std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& before,
-                                                   const PathState& first, const PathState& last) {
-  std::optional<SymmetryBreaking> breaking = breaking_of(run);
+                                                   const PathState& first, const PathState& last,
+                                                   bool with_breaking) {
+  std::optional<SymmetryBreaking> breaking;
+  if (with_breaking) breaking = breaking_of(run);
   const double t_now = run.t();
   const BodyState now = run.statics.accepted();
   PathState low = first;
   PathState earlier = before;
   PathState high = last;
-  while (high.t - low.t > 2 * located) {
+  while (high.t - low.t > 2 * located * std::min(1.0, high.t)) {
     const double t = 0.5 * (low.t + high.t);
     run.put_at(low.t, low.state, earlier.state);
     if (!run.solve_at(t).converged()) break;
@@ -312,6 +314,7 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& be
   run.put_at(high.t, high.state, low.state);
   describe(run, high.state.u - low.state.u, point);
   run.put_at(t_now, now, now);
+  run.body.pressures_from(now.u);
   if (point.kind.empty()) return std::nullopt;
   return point;
 }
@@ -373,7 +376,7 @@ std::optional<CriticalPoint> first_critical_point(Run& run) {
     return true;
   };
   const RunEnd end = run.follow(listener);
-  if (unstable) return locate_critical_point(run, before, now, *unstable);
+  if (unstable) return locate_critical_point(run, before, now, *unstable, breaking.has_value());
   if (end.at != RunEnd::At::no_equilibrium || run.statics.n_unstable() == 0) return std::nullopt;
   return critical_point_at_end(run, before, now, run.path.smallest);
 }

@@ -43,10 +43,12 @@ struct PathState {
 };
 
 // Between two accepted states of an elastic body without bonds, of which `last` has more negative
-// eigenvalues; before: the one before `first`. The run is left where it was. Nothing where the
-// change is not found again.
+// eigenvalues; before: the one before `first`. breaking: movements that break the symmetry of a
+// reduced body are counted. The run is left where it was. Nothing where the change is not found
+// again.
 std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& before,
-                                                   const PathState& first, const PathState& last);
+                                                   const PathState& first, const PathState& last,
+                                                   bool breaking);
 // The point at which a path under given loads ended, of which the last state is known only: within
 // `left` of the path after it there is no equilibrium.
 std::optional<CriticalPoint> critical_point_at_end(Run& run, const PathState& before,

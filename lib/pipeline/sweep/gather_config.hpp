@@ -41,9 +41,9 @@ struct GatherMember {
   }
 };
 
-// The rows of the table: members of the sweep, or parameters of one fit.
-enum class GatherRows { members, parameters };
-constexpr auto names(GatherRows) { return std::array{"members", "parameters"}; }
+// The rows of the table: members of the sweep, parameters of one fit, or the steps of each member.
+enum class GatherRows { members, parameters, steps };
+constexpr auto names(GatherRows) { return std::array{"members", "parameters", "steps"}; }
 
 // The config of gather. Without any key the table has all quantities of all files.
 struct GatherConfig {
@@ -57,7 +57,8 @@ struct GatherConfig {
   static void fields(auto& v) {
     v(&GatherConfig::rows, "rows", unit::none,
       "members: one for each file; parameters: one for each fitted parameter of one fit, with its "
-      "true value (of synthetic data), standard error and 95 % interval");
+      "true value (of synthetic data), standard error and 95 % interval; steps: one for each row of "
+      "the curves of each member, columns names their columns");
     v(&GatherConfig::columns, "columns", unit::none,
       "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
@@ -93,6 +94,10 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
           {"axes[" + std::to_string(i) + "].design", "a design together with other axes",
            "the design as the only axis",
            "gather it alone: name one member of the other axes, or give each its own pipeline"});
+  const bool analysed = !axes.empty() && (axes[0].design || axes[0].samples);
+  if (rows == GatherRows::steps && (analysed || !maps.empty()))
+    all.push_back({"rows", "steps, together with maps, a design or samples", "none of them",
+                   "they compare members, not their steps"});
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (axes[i].samples && axes.size() > 1)
       all.push_back({"axes[" + std::to_string(i) + "].samples", "samples together with other axes",
