@@ -126,14 +126,14 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
   SolveConfig config = model.config();
   Mesh mesh = model.mesh();
-  std::optional<Run::Switch> branch;
+  std::optional<Branch> branch;
   if (config.imperfection && !job.dry_run)
     mesh = imperfect_mesh(job.voice(), std::move(mesh), config, input.material, job.where);
   if (config.branch && !job.dry_run)
     branch = branch_of(job.voice(), mesh, config, input.material, job.where);
   Run run(std::move(mesh), config, input.material, job.where, model.at_a_point(),
           idle_reason(job).empty());
-  if (branch) run.switch_branch(*branch);
+  if (branch) run.switch_branch(branch->at);
   if (ranks() && !ranks()->first()) {
     run_worker_rank(run, job.dry_run, config);
     return Summaries{};
@@ -143,6 +143,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const double fibre_jump = report_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
+  if (branch) watch.know(branch->bifurcation);
   if (job.dry_run)
     return report_forecast(job.voice(), config, input.material, job.where, run, watch);
 

@@ -39,10 +39,10 @@ CriticalPoint found_on_path(const Voice& voice, Run& run, const std::string& key
 
 }  // namespace
 
-Run::Switch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& config,
-                      const std::optional<Material>& material, const Run::Where& where) {
+Branch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& config,
+                 const std::optional<Material>& material, const Run::Where& where) {
   Run run(mesh, perfect(config), material, where);
-  const CriticalPoint point = found_on_path(voice, run, "branch", where);
+  CriticalPoint point = found_on_path(voice, run, "branch", where);
   if (point.kind != "bifurcation")
     refuse_key(where, "branch", "the first critical point is no bifurcation: " + point.words(),
                "a bifurcation",
@@ -60,7 +60,7 @@ Run::Switch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& c
     out.mode = -out.mode;
     out.sign = -1;
   }
-  return out;
+  return {out, std::move(point)};
 }
 
 Mesh imperfect_mesh(const Voice& voice, Mesh mesh, const SolveConfig& config,

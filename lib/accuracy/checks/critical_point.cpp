@@ -52,9 +52,8 @@ struct Softest {
 Softest softest_of(Run& run) {
   Softest softest;
   const Dofs& own = run.body.dofs();
-  const std::vector<Mode> modes =
-      softest_modes(run.body.pattern(), run.statics.constrained_tangent(), 1,
-                    run.statics.volume_gradients(), 1);
+  const std::vector<Mode> modes = softest_modes(
+      run.body.pattern(), run.statics.constrained_tangent(), 1, run.statics.volume_gradients(), 1);
   if (!modes.empty()) softest = {modes[0].eigenvalue, 0, own, on_all_dofs(own, modes[0].shape)};
   int kind = 0;
   for (Dofs& dofs : run.reduction.symmetry_breaking_dofs()) {
@@ -93,7 +92,8 @@ std::array<long long, 3> key_of(const Vec3& X, double cell) {
 
 Grid grid_of(const std::vector<Vec3>& X, const Vec3& middle, double cell) {
   Grid grid;
-  for (std::size_t i = 0; i < X.size(); ++i) grid[key_of(X[i] - middle, cell)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < X.size(); ++i)
+    grid[key_of(X[i] - middle, cell)] = static_cast<int>(i);
   return grid;
 }
 
@@ -106,17 +106,19 @@ int node_at(const Grid& grid, const std::vector<Vec3>& X, const Vec3& middle, co
       for (long long k = -1; k <= 1; ++k) {
         const auto found = grid.find({key[0] + i, key[1] + j, key[2] + k});
         if (found == grid.end()) continue;
-        if ((X[static_cast<std::size_t>(found->second)] - place).norm() < cell) return found->second;
+        if ((X[static_cast<std::size_t>(found->second)] - place).norm() < cell)
+          return found->second;
       }
     }
   }
   return -1;
 }
 
-// A movement of the part that breaks its symmetry, on the whole body: each node has, up to a sign by
-// component, the movement of its image in the part. Which signs is found from the part itself, where
-// nodes next to the planes of symmetry stand on both sides, so the kind is given by its number: 1 and
-// 2 change their sign under the first and the second mirror (or the half turn), 3 under both.
+// A movement of the part that breaks its symmetry, on the whole body: each node has, up to a sign
+// by component, the movement of its image in the part. Which signs is found from the part itself,
+// where nodes next to the planes of symmetry stand on both sides, so the kind is given by its
+// number: 1 and 2 change their sign under the first and the second mirror (or the half turn), 3
+// under both.
 std::vector<Vec3> on_whole_body(const Run& run, const Softest& softest) {
   const Mesh& part = run.body.mesh();
   std::vector<Vec3> mode(run.mesh.X.size(), Vec3::Zero());
@@ -231,7 +233,7 @@ std::optional<double> wave_direction(const Mesh& mesh, const std::vector<Vec3>& 
     }
     const double determinant = A.determinant();
     if (!(std::abs(determinant) > 0)) continue;
-    const Eigen::Vector2d slope(( A(1, 1) * b[0] - A(0, 1) * b[1]) / determinant,
+    const Eigen::Vector2d slope((A(1, 1) * b[0] - A(0, 1) * b[1]) / determinant,
                                 (-A(1, 0) * b[0] + A(0, 0) * b[1]) / determinant);
     const double area = std::sqrt(std::abs(determinant));
     xx += area * slope[0] * slope[0];
@@ -278,22 +280,22 @@ std::string CriticalPoint::words() const {
   return text;
 }
 
-std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& before,
-                                                   const PathState& first, const PathState& last,
+std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
+                                                   const StateOnPath& first, const StateOnPath& last,
                                                    bool with_breaking) {
   std::optional<SymmetryBreaking> breaking;
   if (with_breaking) breaking = breaking_of(run);
   const double t_now = run.t();
   const BodyState now = run.statics.accepted();
-  PathState low = first;
-  PathState earlier = before;
-  PathState high = last;
+  StateOnPath low = first;
+  StateOnPath earlier = before;
+  StateOnPath high = last;
   while (high.t - low.t > 2 * located * std::min(1.0, high.t)) {
     const double t = 0.5 * (low.t + high.t);
     run.put_at(low.t, low.state, earlier.state);
     if (!run.solve_at(t).converged()) break;
     run.statics.accept();
-    PathState middle{t, run.statics.accepted(), 0};
+    StateOnPath middle{t, run.statics.accepted(), 0};
     middle.negative = negative_eigenvalues(run, breaking ? &*breaking : nullptr);
     if (middle.negative > first.negative) {
       high = std::move(middle);
@@ -319,8 +321,8 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& be
   return point;
 }
 
-std::optional<CriticalPoint> critical_point_at_end(Run& run, const PathState& before,
-                                                   const PathState& last, double left) {
+std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,
+                                                   const StateOnPath& last, double left) {
   CriticalPoint point;
   point.t = last.t;
   point.within = left;
@@ -338,9 +340,8 @@ std::optional<CriticalPoint> critical_point_at_end(Run& run, const PathState& be
 std::vector<VecX> modes_of(Run& run, int n) {
   const Dofs& dofs = run.body.dofs();
   std::vector<VecX> shapes;
-  for (const Mode& mode :
-       softest_modes(run.body.pattern(), run.statics.constrained_tangent(), n,
-                     run.statics.volume_gradients(), 1)) {
+  for (const Mode& mode : softest_modes(run.body.pattern(), run.statics.constrained_tangent(), n,
+                                        run.statics.volume_gradients(), 1)) {
     VecX u = on_all_dofs(dofs, mode.shape);
     double largest = 0;
     Vec3 leading = Vec3::Zero();
@@ -360,12 +361,12 @@ std::vector<VecX> modes_of(Run& run, int n) {
 
 std::optional<CriticalPoint> first_critical_point(Run& run) {
   std::optional<SymmetryBreaking> breaking = breaking_of(run);
-  PathState before{0, run.statics.accepted(), 0};
-  PathState now = before;
-  std::optional<PathState> unstable;
+  StateOnPath before{0, run.statics.accepted(), 0};
+  StateOnPath now = before;
+  std::optional<StateOnPath> unstable;
   RunListener listener;
   listener.of_part = [&](StepRecord& record) {
-    PathState next{record.t, run.statics.accepted(), 0};
+    StateOnPath next{record.t, run.statics.accepted(), 0};
     next.negative = negative_eigenvalues(run, breaking ? &*breaking : nullptr);
     if (next.negative > now.negative) {
       unstable = std::move(next);

@@ -20,23 +20,23 @@
 namespace langer {
 
 struct CriticalPoint {
-  double t = 0;            // middle of the bracket
-  double within = 0;       // half of its length
-  double load_factor = 0;  // t itself but on paths with arc lengths
-  std::string kind;        // "limit point of load", "limit point of travel", "bifurcation"
-  std::string symmetry;    // of the mode: "antisymmetric in x, symmetric in z"; may be empty
-  int before = 0, after = 0;       // negative eigenvalues
-  std::vector<Vec3> mode;          // (n) of the whole body, the largest movement 1
-  std::optional<double> angle;     // of the waves of the mode on the top face, from x towards z [deg]
-  VecX of_model;                   // (3 n) of the model that was solved; empty where it breaks its symmetry
-  BodyState state;                 // the last one before, of the model
-  BodyState earlier;               // the one that it was found from
+  double t = 0;                 // middle of the bracket
+  double within = 0;            // half of its length
+  double load_factor = 0;       // t itself but on paths with arc lengths
+  std::string kind;             // "limit point of load", "limit point of travel", "bifurcation"
+  std::string symmetry;         // of the mode: "antisymmetric in x, symmetric in z"; may be empty
+  int before = 0, after = 0;    // negative eigenvalues
+  std::vector<Vec3> mode;       // (n) of the whole body, the largest movement 1
+  std::optional<double> angle;  // of the waves of the mode on the top face, from x towards z [deg]
+  VecX of_model;      // (3 n) of the model that was solved; empty where it breaks its symmetry
+  BodyState state;    // the last one before, of the model
+  BodyState earlier;  // the one that it was found from
   double t_state = 0;
-  std::string words() const;       // "bifurcation at t = 0.4321 (...)"
+  std::string words() const;  // "bifurcation at t = 0.4321 (...)"
 };
 
 // A state of a run and its place on the path.
-struct PathState {
+struct StateOnPath {
   double t = 0;
   BodyState state;
   int negative = 0;
@@ -46,13 +46,13 @@ struct PathState {
 // eigenvalues; before: the one before `first`. breaking: movements that break the symmetry of a
 // reduced body are counted. The run is left where it was. Nothing where the change is not found
 // again.
-std::optional<CriticalPoint> locate_critical_point(Run& run, const PathState& before,
-                                                   const PathState& first, const PathState& last,
+std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
+                                                   const StateOnPath& first, const StateOnPath& last,
                                                    bool breaking);
 // The point at which a path under given loads ended, of which the last state is known only: within
 // `left` of the path after it there is no equilibrium.
-std::optional<CriticalPoint> critical_point_at_end(Run& run, const PathState& before,
-                                                   const PathState& last, double left);
+std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,
+                                                   const StateOnPath& last, double left);
 
 // The modes of the body at the accepted state of a run without contact, as node movements of the
 // model (3 n), the largest component 1.

@@ -53,7 +53,7 @@ bool RunWatch::follows_states() const {
          run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
 }
 
-void RunWatch::take_state(PathState state) {
+void RunWatch::take_state(StateOnPath state) {
   if (crossing_) return;
   if (!last_) {
     BodyState rest = state.state;
@@ -61,8 +61,9 @@ void RunWatch::take_state(PathState state) {
     rest.travel = 0;
     rest.u.setZero();
     rest.pressures.setZero();
-    for (auto& reactions : rest.r) std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
-    last_ = PathState{0, rest, 0};
+    for (auto& reactions : rest.r)
+      std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
+    last_ = StateOnPath{0, rest, 0};
     before_ = last_;
   }
   if (state.negative > last_->negative) {
@@ -103,8 +104,8 @@ void RunWatch::locate(const RunEnd& end) {
   if (!follows_states() || critical_) return;
   if (crossing_) {
     const bool breaking = breaking_at(false) && run_.reduction.kind() == Reduction::Kind::symmetry;
-    critical_ = locate_critical_point(run_, crossing_->before, crossing_->first, crossing_->last,
-                                      breaking);
+    critical_ =
+        locate_critical_point(run_, crossing_->before, crossing_->first, crossing_->last, breaking);
   } else if (end.at == RunEnd::At::no_equilibrium && run_.statics.n_unstable() > 0 && last_) {
     critical_ = critical_point_at_end(run_, *before_, *last_, run_.path.smallest);
   }
@@ -189,8 +190,8 @@ std::vector<std::string> RunWatch::warnings() const {
   if (critical_) lines.push_back("first critical point: " + critical_->words());
   for (const Turning& turning : turnings_) {
     const char* extremum = turning.greatest ? "greatest" : "least";
-    lines.push_back(fmt::format("{} has a {} value of {:.6g}{} at t = {:.5g}: a limit point", turning.name,
-                                extremum, turning.value, turning.unit, turning.t));
+    lines.push_back(fmt::format("{} has a {} value of {:.6g}{} at t = {:.5g}: a limit point",
+                                turning.name, extremum, turning.value, turning.unit, turning.t));
   }
   if (run_.statics.gave_up_iterating())
     lines.push_back(

@@ -43,6 +43,7 @@ class RunWatch {
   // it. The run is left at its end.
   void locate(const RunEnd& end);
   const std::optional<CriticalPoint>& critical() const { return critical_; }
+  void know(CriticalPoint point) { critical_ = std::move(point); }  // where the path leaves another
 
   std::vector<std::string> warnings() const;
   std::vector<std::string> notes() const;
@@ -57,7 +58,7 @@ class RunWatch {
   std::optional<StabilityReport> report_of_point(const StepRecord& record);
   bool breaking_at(bool at_end) const;
   bool follows_states() const;
-  void take_state(PathState state);
+  void take_state(StateOnPath state);
   void take_turning(const StepRecord& record);
 
   Run& run_;
@@ -72,9 +73,9 @@ class RunWatch {
 
   // The last two states, and the first three of which the last has more negative eigenvalues.
   LocateCritical locate_;
-  std::optional<PathState> before_, last_;
+  std::optional<StateOnPath> before_, last_;
   struct Crossing {
-    PathState before, first, last;
+    StateOnPath before, first, last;
   };
   std::optional<Crossing> crossing_;
   std::optional<CriticalPoint> critical_;

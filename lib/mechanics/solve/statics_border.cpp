@@ -1,7 +1,8 @@
 // Unknowns beside the displacements, each with an equation of its own:
 //   t            the factor of all loads, while the increment has a given length (arc length)
 //   pressures    of surfaces that are given a volume
-// With K the tangent, c the forces per unit of such an unknown x and g its equation, a correction is
+// With K the tangent, c the forces per unit of such an unknown x and g its equation, a correction
+// is
 //   K du - c dx = r,    dg/du . du = -g
 // Two back-substitutions with the factor of K, a = K^-1 r and b = K^-1 c, give du = a + b dx. K may
 // be indefinite on the way, and singular at limit points, which no iterate meets exactly.
@@ -138,8 +139,7 @@ void Statics::solve_border(VecX& move) {
     t_next_ = 0;
     const VecX a_all = with_prescribed_dofs(move);
     VecX b_all = rates_;
-    for (Eigen::Index row = 0; row < b.size(); ++row)
-      b_all[equilibrium_.dofs().free[row]] = b[row];
+    for (Eigen::Index row = 0; row < b.size(); ++row) b_all[equilibrium_.dofs().free[row]] = b[row];
     t_next_ = arc_step(a_all, b_all);
     move += t_next_ * b;
     return;

@@ -48,7 +48,8 @@ struct ImperfectionConfig {
   double amplitude = 0;
   static void fields(auto& v) {
     v(&ImperfectionConfig::mode, "mode", unit::none,
-      "1: the lowest mode at the first critical point of the perfect body, 2: the next", between(1, 8));
+      "1: the lowest mode at the first critical point of the perfect body, 2: the next",
+      between(1, 8));
     v(&ImperfectionConfig::amplitude, "amplitude", unit::mm,
       "of the node that is moved most; the sign chooses the direction of the mode", required);
   }
