@@ -275,7 +275,8 @@ std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& mem
                         fmt::format("found {} members", config.members.size()),
                         fmt::format("one for each of the {} files given", files.size()), ""});
   std::vector<GatherInput> inputs;
-  const bool drawn = !config.figures.empty() || !config.maps.empty();
+  const bool drawn =
+      !config.figures.empty() || !config.maps.empty() || config.rows == GatherRows::steps;
   for (std::size_t i = 0; i < files.size(); ++i) {
     GatherInput member{files[i], {}, read_summary(files[i])};
     if (member.summary.empty())
@@ -295,23 +296,61 @@ std::vector<GatherInput> read_members(const Job<GatherConfig>& job, Members& mem
   return inputs;
 }
 
+// The table of `rows: steps`: one row for each row of the curves of each member.
+Sweep steps_of(const Job<GatherConfig>& job, const std::vector<SweepAxis>& axes,
+               const std::vector<GatherInput>& inputs, const Members& members) {
+  std::vector<std::string> wanted = job.config.columns;
+  if (wanted.empty())
+    for (const Column& c : members.front().curves.columns) wanted.push_back(c.name);
+  Sweep sweep;
+  sweep.axes = axes;
+  for (SweepAxis& axis : sweep.axes) axis.values.clear();
+  for (const std::string& name : wanted) sweep.columns.push_back({name, "", {}});
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::vector<Column>& columns = members[i].curves.columns;
+    std::vector<std::string> known;
+    for (const Column& c : columns) known.push_back(c.name);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const auto found = std::ranges::find(columns, wanted[k], &Column::name);
+      if (found == columns.end())
+        throw Failure(Exit::config,
+                      Error{job.where("columns"), "columns",
+                            fmt::format("{} has no column \"{}\"", inputs[i].path, wanted[k]),
+                            "one of " + list_words(known), did_you_mean(nearest(wanted[k], known))});
+      SweepColumn& column = sweep.columns[k];
+      column.unit = found->unit;
+      column.values.insert(column.values.end(), found->values.begin(), found->values.end());
+    }
+    for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+      sweep.members.push_back(inputs[i].path);
+      for (std::size_t a = 0; a < axes.size(); ++a)
+        sweep.axes[a].values.push_back(inputs[i].at.at(a));
+    }
+  }
+  return sweep;
+}
+
 // Effects, spreads and differences of maps add columns to the table, so the file is written last.
 std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   const GatherConfig& config = job.config;
   if (config.rows == GatherRows::parameters) return gather_parameters(job);
   const bool of_vibrations =
       config.rows == GatherRows::frequencies || config.rows == GatherRows::modes;
-  if (config.rows != GatherRows::members && !of_vibrations) return gather_table(job);
+  const bool of_members_or_steps =
+      config.rows == GatherRows::members || config.rows == GatherRows::steps;
+  if (!of_members_or_steps && !of_vibrations) return gather_table(job);
   Members members;
   const std::vector<GatherInput> inputs = read_members(job, members);
   std::vector<SweepAxis> axes;
   for (const GatherAxis& a : config.axes)
     axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
+  const bool by_steps = config.rows == GatherRows::steps;
+  const std::vector<std::string> of_members = by_steps ? std::vector<std::string>{} : config.columns;
   Sweep sweep;
-  if (config.rows == GatherRows::members) {
-    sweep = gather(config.columns, axes, inputs, job.where("columns"));
-  } else {
+  if (of_vibrations) {
     sweep = stacked_vibrations(job, inputs, axes);
+  } else {
+    sweep = gather(of_members, axes, inputs, job.where("columns"));
   }
 
   // Analyses of the members: effects of a design, or the spread over samples.
@@ -344,6 +383,7 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   }
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
+  if (by_steps) sweep = steps_of(job, axes, inputs, members);
   write_sweep(job.output, job.side_file("table.csv"), sweep, design, effects, job.identity, spreads,
               bands);
   job.say("{} rows, {} columns, {} figures", sweep.members.size(),

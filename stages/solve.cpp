@@ -6,6 +6,7 @@
 // estimate meets the request. Several ranks can share a run: rank 0 alone prints and writes.
 #include <csignal>
 
+#include "accuracy/checks/branch.hpp"
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
@@ -141,8 +142,15 @@ Summaries add_vibration(const Job<SolveConfig>& job, const SolveConfig& config, 
 std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
   SolveConfig config = model.config();
-  Run run(model.mesh(), config, input.material, job.where, model.at_a_point(),
+  Mesh mesh = model.mesh();
+  std::optional<Branch> branch;
+  if (config.imperfection && !job.dry_run)
+    mesh = imperfect_mesh(job.voice(), std::move(mesh), config, input.material, job.where);
+  if (config.branch && !job.dry_run)
+    branch = branch_of(job.voice(), mesh, config, input.material, job.where);
+  Run run(std::move(mesh), config, input.material, job.where, model.at_a_point(),
           idle_reason(job).empty());
+  if (branch) run.switch_branch(branch->at);
   if (ranks() && !ranks()->first()) {
     run_worker_rank(run, job.dry_run, config);
     return Summaries{};
@@ -152,6 +160,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   const double fibre_jump = report_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
+  if (branch) watch.know(branch->bifurcation);
   if (job.dry_run)
     return report_forecast(job.voice(), config, input.material, job.where, run, watch);
 

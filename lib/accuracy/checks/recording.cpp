@@ -8,6 +8,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
+#include "results/store/vtu.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
 
@@ -19,6 +20,16 @@ namespace {
 // compressible one folds inside, and no equilibrium is found. Plain displacement cells do not, and
 // up to this ratio of the bulk to the shear modulus (a Poisson's ratio of 0.49) they hardly lock.
 constexpr double compressible = 50;
+
+// The mode of a critical point as solution_mode.vtu beside solution.h5.
+void write_mode(const Mesh& mesh, const CriticalPoint& point, const std::string& output) {
+  Field field{"mode", "-", 3, {}};
+  for (const Vec3& u : point.mode)
+    for (int k = 0; k < 3; ++k) field.values.push_back(u[k]);
+  std::string name = output;
+  if (name.ends_with(".h5")) name.resize(name.size() - 3);
+  write_vtu(name + "_mode.vtu", mesh, point.t, {field}, {});
+}
 
 bool compressible_cells_fold(const Assembler& body) {
   if (body.formulation() != Formulation::mean_dilatation) return false;
@@ -41,7 +52,8 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
     return fmt::format(
         "the next run continues from there, but shorter increments do not pass a limit point); "
         "the last equilibrium is at {:g} of the path: end the loads there (loads in proportion to "
-        "t: {:g} times their values), or impose a displacement and no force",
+        "t: {:g} times their values), impose a displacement and no force, or follow the path past its limit point with "
+        "path.arc_length",
         reached, reached);
   }
   if (compressible_cells_fold(run.body)) {
@@ -106,6 +118,9 @@ RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::stri
         "these steps were made with other settings: /provenance/earlier of the result holds them");
   const RunEnd end = along_the_path(progress);
   if (end.at == RunEnd::At::not_homogeneous) return end;
+  watch_.locate(end);
+  if (const auto& critical = watch_.critical(); critical && !critical->mode.empty())
+    write_mode(run_.mesh, *critical, output_);
   for (const std::string& line : watch_.warnings()) voice.warn(line);
   for (const std::string& line : watch_.notes()) voice.say("{}", line);
   if (end.path.complete)
@@ -166,6 +181,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
       fmt::format("stopped at t = {:.6g} after {} steps: {}", end.path.t, n_steps(), end.path.why);
   if (run_.statics.n_unstable() > 0)
     found += "; the body itself gives way (tangent not positive definite)";
+  if (watch_.critical()) found += "; " + watch_.critical()->words();
   if (!watch_.last_said().empty()) found += "; at the last state " + watch_.last_said();
   if (!loose.empty()) found += "; " + loose;
   found += "; smallest increment reached";

@@ -45,7 +45,13 @@ class Recording {
 
   void write_vibration(const VibrationRecord& record) { file_.write_vibration(record); }
   void finish(const std::vector<Summary>& said, const SolutionWriter::Histories& found_later) {
-    file_.finish(continues() ? std::nullopt : std::optional(cost_so_far()), said, found_later);
+    std::vector<Summary> all = said;
+    if (const auto& critical = watch_.critical()) {
+      all.push_back({"critical_t", critical->t, "-"});
+      all.push_back({"critical_is_bifurcation", critical->kind == "bifurcation" ? 1.0 : 0.0, "-"});
+      if (critical->angle) all.push_back({"critical_wave_angle", *critical->angle, "deg"});
+    }
+    file_.finish(continues() ? std::nullopt : std::optional(cost_so_far()), all, found_later);
   }
 
  private:

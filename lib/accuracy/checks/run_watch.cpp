@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/run/step_record.hpp"
 
 namespace langer {
@@ -32,7 +35,8 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
       on_unstable_(config.on_unstable),
       breaking_at_each_step_(breaking_at_each_step(run, config)),
       stability_(std::move(tests), reach_of(run, config)),
-      result_(run.body) {
+      result_(run.body),
+      locate_(config.critical) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
   if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
     StaticsOptions options;
@@ -42,7 +46,78 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
   }
 }
 
+// Whether states are kept to search between them: elastic bodies, whose states do not depend on how
+// they were reached, and whose tangent is factorized.
+bool RunWatch::follows_states() const {
+  return locate_ == LocateCritical::automatic && when_ != StabilityCheck::off &&
+         when_ != StabilityCheck::last && !mesh_ && !run_.body.viscous() &&
+         run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
+}
+
+void RunWatch::take_state(StateOnPath state) {
+  if (crossing_) return;
+  if (!last_) {
+    BodyState rest = state.state;
+    rest.t = 0;
+    rest.travel = 0;
+    rest.u.setZero();
+    rest.pressures.setZero();
+    for (auto& reactions : rest.r)
+      std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
+    last_ = StateOnPath{0, rest, 0};
+    before_ = last_;
+  }
+  if (state.negative > last_->negative) {
+    crossing_ = Crossing{*before_, *last_, std::move(state)};
+    return;
+  }
+  before_ = std::move(last_);
+  last_ = std::move(state);
+}
+
+// An extremum lies between the first and the last of three steps if the one between them is the
+// greatest or the least: that of the parabola through them.
+void RunWatch::take_turning(const StepRecord& record) {
+  for (const auto& [name, value] : record.scalars) {
+    if (name != "load_factor" && !name.starts_with("load_pressure")) continue;
+    std::vector<Sample>& known = samples_[name];
+    if (known.empty()) known.push_back({0, 0});
+    if (known.size() == 2) {
+      const Sample a = known[0];
+      const Sample b = known[1];
+      const double left = (b.value - a.value) / (b.t - a.t);
+      const double right = (value - b.value) / (record.t - b.t);
+      if (left * right < 0) {
+        const double curvature = (right - left) / (record.t - a.t);
+        const double slope = left + curvature * (b.t - a.t);
+        const double t = b.t - 0.5 * slope / curvature;
+        const double there = b.value + slope * (t - b.t) + curvature * (t - b.t) * (t - b.t);
+        const char* unit = name == "load_factor" ? "" : " MPa";
+        turnings_.push_back({name, unit, t, there, left > 0});
+      }
+      known.erase(known.begin());
+    }
+    known.push_back({record.t, value});
+  }
+}
+
+void RunWatch::locate(const RunEnd& end) {
+  if (!follows_states() || critical_) return;
+  if (crossing_) {
+    const bool breaking = breaking_at(false) && run_.reduction.kind() == Reduction::Kind::symmetry;
+    critical_ =
+        locate_critical_point(run_, crossing_->before, crossing_->first, crossing_->last, breaking);
+  } else if (end.at == RunEnd::At::no_equilibrium && run_.statics.n_unstable() > 0 && last_) {
+    critical_ = critical_point_at_end(run_, *before_, *last_, run_.path.smallest);
+  }
+}
+
 void RunWatch::kept(const StepRecord& step) {
+  take_turning(step);
+  if (const auto found = step.scalars.find("negative_eigenvalues");
+      found != step.scalars.end() && follows_states()) {
+    take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))});
+  }
   stability_.resume(step);
   if (contact_) contact_->kept(step);
   if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end()) {
@@ -64,6 +139,7 @@ bool RunWatch::breaking_at(bool at_end) const {
 std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
   if (mesh_) return report_of_point(record);
   StabilityReport report = stability_.look(run_.body, run_.statics);
+  report.t = record.t;  // not that of the loads, where their factor is a result
   if (!breaking_at(at_end_of_path(record.t))) return report;
   if (!breaking_) {
     std::vector<Dofs> kinds = run_.reduction.symmetry_breaking_dofs();
@@ -83,10 +159,18 @@ std::optional<StabilityReport> RunWatch::report_of_point(const StepRecord& recor
 }
 
 bool RunWatch::of_part(StepRecord& record) {
+  take_turning(record);
   const bool at_end = at_end_of_path(record.t);
   if (when_ == StabilityCheck::off || (when_ == StabilityCheck::last && !at_end)) return true;
   const std::optional<StabilityReport> report = report_of(record);
   if (!report) return true;
+  if (follows_states() && report->signature) {
+    // where movements that break the symmetry are looked at in the last step only, they are no
+    // change from the step before
+    int negative = std::abs(report->signature->negative);
+    if (report->breaking && breaking_at(false)) negative += std::abs(report->breaking->negative);
+    take_state({record.t, run_.statics.accepted(), negative});
+  }
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
   last_said_ = in_words(*report);
@@ -103,6 +187,12 @@ std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& r
 
 std::vector<std::string> RunWatch::warnings() const {
   std::vector<std::string> lines = stability_.warnings();
+  if (critical_) lines.push_back("first critical point: " + critical_->words());
+  for (const Turning& turning : turnings_) {
+    const char* extremum = turning.greatest ? "greatest" : "least";
+    lines.push_back(fmt::format("{} has a {} value of {:.6g}{} at t = {:.5g}: a limit point",
+                                turning.name, extremum, turning.value, turning.unit, turning.t));
+  }
   if (run_.statics.gave_up_iterating())
     lines.push_back(
         "iterative solutions of the tangent did not converge: it was factorized in those increments (solver.newton.linear)");
@@ -125,7 +215,19 @@ std::vector<Summary> RunWatch::contact_summary() const {
 
 std::vector<Summary> RunWatch::stability_summary() const {
   if (when_ == StabilityCheck::off) return std::vector<Summary>{};
-  return stability_.summary();
+  std::vector<Summary> all = stability_.summary();
+  // the unit of a word is the word itself (pipeline/plan/run_files.cpp)
+  if (critical_) {
+    all.push_back({"critical_t", critical_->t, "-"});
+    all.push_back({"critical_load_factor", critical_->load_factor, "-"});
+    all.push_back({"critical_kind", NAN, "word " + critical_->kind});
+    all.push_back({"critical_symmetry", NAN, "word " + critical_->symmetry});
+    if (critical_->angle) all.push_back({"critical_wave_angle", *critical_->angle, "deg"});
+  } else if (!turnings_.empty()) {
+    all.push_back({"critical_t", turnings_.front().t, "-"});
+    all.push_back({"critical_kind", NAN, "word limit point of load"});
+  }
+  return all;
 }
 
 }  // namespace langer

@@ -2,11 +2,13 @@
 // surface, rounding and locking.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/checks/contact_watch.hpp"
+#include "accuracy/checks/critical_point.hpp"
 #include "accuracy/checks/result_watch.hpp"
 #include "accuracy/checks/stability_watch.hpp"
 #include "mechanics/solve/symmetry_breaking.hpp"
@@ -37,6 +39,12 @@ class RunWatch {
     return last_said_;
   }  // of the last state's stability; empty where it is stable
 
+  // At the end of the path: finds the first critical point that lies on it, if the config asks for
+  // it. The run is left at its end.
+  void locate(const RunEnd& end);
+  const std::optional<CriticalPoint>& critical() const { return critical_; }
+  void know(CriticalPoint point) { critical_ = std::move(point); }  // where the path leaves another
+
   std::vector<std::string> warnings() const;
   std::vector<std::string> notes() const;
   // at the end of the path; throws Failure(config) where a facet is entered and no force said
@@ -49,6 +57,9 @@ class RunWatch {
   std::optional<StabilityReport> report_of(const StepRecord& record);
   std::optional<StabilityReport> report_of_point(const StepRecord& record);
   bool breaking_at(bool at_end) const;
+  bool follows_states() const;
+  void take_state(StateOnPath state);
+  void take_turning(const StepRecord& record);
 
   Run& run_;
   StabilityCheck when_;
@@ -60,6 +71,26 @@ class RunWatch {
   ResultWatch result_;
   std::optional<ContactWatch> contact_;
   std::string unstable_, last_said_;
+
+  // The last two states, and the first three of which the last has more negative eigenvalues.
+  LocateCritical locate_;
+  std::optional<StateOnPath> before_, last_;
+  struct Crossing {
+    StateOnPath before, first, last;
+  };
+  std::optional<Crossing> crossing_;
+  std::optional<CriticalPoint> critical_;
+  // A load that is a result has an extremum: a limit point of it.
+  struct Turning {
+    std::string name, unit;
+    double t = 0, value = 0;
+    bool greatest = false;
+  };
+  std::vector<Turning> turnings_;
+  struct Sample {
+    double t = 0, value = 0;
+  };
+  std::map<std::string, std::vector<Sample>> samples_;  // the last two, by name
 };
 
 }  // namespace langer

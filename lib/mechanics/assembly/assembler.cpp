@@ -198,6 +198,40 @@ void Assembler::add_loads(const VecX& u, bool with_tangent, const VecX* du_presc
   loads_.each(t_loads_, displacements, with_tangent, add);
 }
 
+VecX Assembler::unit_pressure(int volume, const VecX& u) const {
+  VecX out = VecX::Zero(body_.dofs().n);
+  const auto add = [&](int e, const ElementNodes& force, const MatX*) {
+    const auto nodes = body_.nodes(e);
+    for (int a = 0; a < body_.n_nodes(); ++a) {
+      body_.add_force(out, nodes[a], e, force.row(a).transpose());
+    }
+  };
+  const auto displacements = [&](int e) {
+    return body_.displacements(u, e);
+  };
+  loads_.each_unit(volume, displacements, add);
+  return out;
+}
+
+double Assembler::swept_volume(int volume, const VecX& u) const {
+  return loads_.swept_volume(volume, [&](int e) { return body_.displacements(u, e); });
+}
+
+VecX Assembler::load_forces(double t, const VecX& u) const {
+  VecX out = VecX::Zero(body_.dofs().n);
+  const auto add = [&](int e, const ElementNodes& force, const MatX*) {
+    const auto nodes = body_.nodes(e);
+    for (int a = 0; a < body_.n_nodes(); ++a) {
+      body_.add_force(out, nodes[a], e, force.row(a).transpose());
+    }
+  };
+  const auto displacements = [&](int e) {
+    return body_.displacements(u, e);
+  };
+  loads_.each(t, displacements, false, add);
+  return out;
+}
+
 void Assembler::add_load_stiffness(int e, const MatX& stiffness, const VecX* du_prescribed) {
   const auto nodes = body_.nodes(e);
   const int n_nodes = body_.n_nodes();

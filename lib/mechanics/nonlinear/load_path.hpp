@@ -12,6 +12,18 @@
 
 namespace langer {
 
+// Increments of given length, in which the factor of all loads is an unknown (solve/statics_border.cpp).
+struct ArcLengthOptions {
+  double length = 0;
+  static void fields(auto& v) {
+    v(&ArcLengthOptions::length, "length", unit::mm,
+      "of the whole path: increments add up to it, each the root mean square movement of the nodes. t is "
+      "the share of it that has been covered, and load_factor, a result, multiplies all loads and imposed "
+      "displacements",
+      required, positive);
+  }
+};
+
 struct LoadPathOptions {
   std::optional<int> steps;
   double first = 0.1, largest = 0.1, smallest = 1e-4;
@@ -19,6 +31,7 @@ struct LoadPathOptions {
   std::optional<double> seconds;
   double time_error = 1e-3;
   std::optional<double> longest_attempt;  // [s], wall time
+  std::optional<ArcLengthOptions> arc_length;
 
   double first_increment() const {
     if (steps) return 1.0 / *steps;
@@ -63,11 +76,16 @@ struct LoadPathOptions {
       "wall time after which an attempt at an increment counts as failed and the increment is halved; none: no limit. With it "
       "the increments depend on the speed of the machine",
       positive);
+    v(&LoadPathOptions::arc_length, "arc_length", unit::none,
+      "follows the path of equilibria past limit points, where loads or imposed displacements turn back");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
     if (!steps && first > largest)
       found.push_back({"first", "larger than largest", "first <= largest", ""});
+    if (arc_length && seconds)
+      found.push_back({"arc_length", "found together with seconds", "one of the two",
+                       "the factor of the loads is a result, and no function of time"});
     if (smallest > first_increment())
       found.push_back({"smallest", "larger than the first increment", "a smaller one", ""});
     return found;

@@ -82,8 +82,9 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   const Stopwatch watch(cost_.assembly);
   Assessment out;
   const VecX du = remaining_prescribed(u);
+  const VecX direction = imposed_direction(u);
   if (std::exchange(unsettled_, false)) equilibrium_.pressures_from(u);
-  out.admissible = equilibrium_.assemble(u, with_tangent, &du);
+  out.admissible = equilibrium_.assemble(u, with_tangent, &direction);
   K_current_ = with_tangent;
   if (!out.admissible) {
     if (equilibrium_.J_min() > 0) {
@@ -105,6 +106,8 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
     out.missing = "the force on the indenter is not the given one";
   else if (!prescribed_reached(u, du))
     out.missing = "prescribed displacements not reached";
+  else if (bordered() && !border_defect(u).empty())
+    out.missing = border_defect(u);
   else if (factor_.held_by_contact() && slips_away())
     out.missing = "the body slips away from under the indenter, and nothing else holds it";
   out.others = out.missing.empty();
@@ -155,6 +158,7 @@ void Statics::moved(const VecX& du, double step) {
                                   shape_at(contacts_[k].shape, moved_x).normal);
     }
   }
+  if (bordered()) move_border(step);
   if (controlled_ >= 0) travel_ += step * travel_next_;
   if (starts_with_travel()) slip_from_touch(static_cast<std::size_t>(controlled_), expected_);
 }

@@ -60,7 +60,7 @@ bool Statics::factorize_accepted() {
 void Statics::update_tangent() {
   if (K_current_) return;
   const Stopwatch watch(cost_.assembly);
-  const VecX du = remaining_prescribed(u_);
+  const VecX du = imposed_direction(u_);
   equilibrium_.assemble(u_, true, &du);
   K_current_ = true;
 }
@@ -84,7 +84,9 @@ double Statics::cost_ratio() const {
 std::optional<VecX> Statics::correction() {
   update_tangent();
   again_ = false;
-  const VecX rhs = free_residual() - on_free_rows(equilibrium_.K_du());
+  VecX rhs = free_residual();
+  if (!arc_) rhs -= on_free_rows(equilibrium_.K_du());
+  if (bordered()) update_border();
   std::optional<VecX> du;
   if (contact_in_tangent())
     du = solve_with_contact(rhs);
@@ -111,6 +113,7 @@ std::optional<VecX> Statics::correction_again() {
 
 VecX Statics::with_prescribed_dofs(const VecX& free) const {
   VecX du = remaining_prescribed(u_);
+  if (arc_) du += t_next_ * rates_;
   for (Eigen::Index row = 0; row < free.size(); ++row)
     du[equilibrium_.dofs().free[row]] = free[row];
   return du;
@@ -166,9 +169,15 @@ VecX Statics::solve_with_follower_loads(const VecX& rhs) {
   // Share of the correction that is left. What a correction leaves of the residual is more than
   // this: 0.03 to 0.3 by an old tangent, and by a new one what the step is too long for.
   const double accurate = again_ ? 1e-2 : 1e-3;
+  if (!equilibrium_.loads().follow()) return factor_.linear().solve(rhs);
+  return solve_near_factor(
+      rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_))), accurate);
+}
+
+// The same where no prescribed dof moves.
+VecX Statics::solve_near_factor(const VecX& known, double accurate) {
   LinearSolver& linear = factor_.linear();
-  if (!equilibrium_.loads().follow()) return linear.solve(rhs);
-  const VecX known = rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_)));
+  if (!equilibrium_.loads().follow()) return linear.solve(known);
   const auto product = [&](const VecX& x) {
     VecX du = VecX::Zero(u_.size());
     for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
@@ -235,6 +244,7 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   if (contacts_.empty()) {
     const Stopwatch watch(cost_.solve);
     move = solve_with_follower_loads(rhs);
+    if (bordered()) solve_border(move);
   } else {
     LinearSolver::Half half;
     std::optional<ContactChange> change = change_of_contact(rhs, half);

@@ -26,10 +26,12 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   travel_ = now_.travel;
   equilibrium_.load_to(t_);
   u_start_.assign(contacts_.size(), now_.u);
+  take_border_of(now_);
   if (!bonds_.none()) begin_bonds();
 }
 
 void Statics::begin(double t) {
+  arc_.reset();
   t_ = t;
   K_current_ = again_ = unsettled_ = false;
   extrapolated_ = 0;
@@ -42,6 +44,7 @@ void Statics::begin(double t) {
   if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
   equilibrium_.load_to(t);
+  take_border_of(now_);
   equilibrium_.pressures_from(now_.u);
   const bool pushed = controlled_ >= 0 &&
                       controlled()->control->force.at(t) != controlled()->control->force.at(now_.t);
@@ -75,6 +78,10 @@ void Statics::extrapolate(double s) {
   if (!options_.extrapolate || !admissible(now_.u + step)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
   u_ += step;
+  if (p_.size() > 0 && before_.pressures.size() == p_.size()) {
+    p_ += s * (now_.pressures - before_.pressures);
+    equilibrium_.set_load_pressures(p_);
+  }
   extrapolated_ = s;
   travel_ += s * (now_.travel - before_.travel);
 }
@@ -130,12 +137,14 @@ void Statics::replay(const BodyState& next) {
   u_ = now_.u;
   r_ = now_.r;
   travel_ = now_.travel;
+  take_border_of(now_);
 }
 
 void Statics::accept() {
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_, travel_};
+  now_.pressures = p_;
   if (!bonds_.none()) accept_bonds();
 }
 

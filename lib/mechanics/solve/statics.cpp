@@ -36,6 +36,8 @@ Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
   now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
+  now_.pressures = VecX::Zero(equilibrium_.loads().n_volumes());
+  p_ = now_.pressures;
   before_ = now_;
   u_ = now_.u;
   r_ = r_next_ = now_.r;

@@ -14,6 +14,7 @@
 //   contact_step.cpp  linearise, condense the contact, solve for a correction
 //   statics_stability.cpp  signs of the eigenvalues of the constrained tangent
 //   statics_bonds.cpp adhesion
+//   statics_border.cpp  unknowns beside the displacements: t of an arc, pressures of given volumes
 #pragma once
 
 #include <memory>
@@ -39,6 +40,7 @@ struct BodyState {
   double travel = 0;      // of the indenter under force control [mm]
   BondStates bonds = {};  // empty where nothing adheres
   BondEnergy in_bonds = {};
+  VecX pressures = {};  // of loads with a given volume [MPa]
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions
@@ -69,10 +71,18 @@ class Statics {
           const StaticsOptions& options);
 
   void begin(double t);  // starts an increment to t: predicts its trial state
-  void restart() { begin(t_); }
+  // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
+  // root mean square of the nodes' movement is `length` [mm] instead. towards: (3 n) where it goes
+  // from here; none: on as before.
+  void begin_arc(double length, const VecX* towards = nullptr);
+  // The same with a movement of `amplitude` [mm] along a mode (3 n, norm 1) instead.
+  void begin_along(const VecX& mode, double amplitude);
+  void begin_from(const VecX& u);  // in an increment that has begun: another trial state
+  void restart();
   Problem problem();           // of the increment begun; refers to this object
   FreeBalance free_balance();  // the same with fixed contact reactions
   VecX& trial() { return u_; }
+  double trial_t() const { return t_; }
   // Adhesion: the bonds of the trial state, and the functions by which an increment with bonds that
   // break moves its trial state (solve/release.hpp).
   Bonds& bonds() { return bonds_; }
@@ -115,6 +125,12 @@ class Statics {
   // them: one factorization each, by the solvers that are kept for the next state.
   Signature signature_under(std::span<OtherTangent> others,
                             std::vector<std::unique_ptr<LinearSolver>>& solvers);
+  // The tangent of which signature() counts the negative eigenvalues, at the accepted state: contacts
+  // as stiff springs. For bodies whose tangent has a factor.
+  std::vector<double> constrained_tangent();
+  std::vector<double> constrained_tangent(OtherTangent& other);
+  // Forces of 1 MPa on each surface of a given volume, on the free rows.
+  std::vector<VecX> volume_gradients() const;
   VecX reactions() const;  // (3 n) F_int at supports and contact nodes, 0 elsewhere
   // tangents so far that were not positive definite without contact, and among them those that were
   // not with contact
@@ -158,8 +174,19 @@ class Statics {
   std::optional<ContactChange> change_of_contact(const VecX& rhs, LinearSolver::Half& half);
   int level_of_increment(const BodyState& from, double t, double last_travel) const;
   VecX solve_with_follower_loads(const VecX& rhs);
+  VecX solve_near_factor(const VecX& known, double accurate = 1e-6);
   std::optional<VecX> solve_with_contact(const VecX& rhs);
   VecX with_prescribed_dofs(const VecX& free) const;
+  bool bordered() const { return arc_.has_value() || p_.size() > 0; }
+  void begin_border();
+  VecX imposed_direction(const VecX& u) const;  // what K_du() of the next assembly is of
+  void update_border();
+  void solve_border(VecX& move);
+  double arc_step(const VecX& a, const VecX& b) const;
+  void move_border(double step);
+  std::string border_defect(const VecX& u) const;
+  void take_border_of(const BodyState& state);
+  int held_by_volumes(int negative);
   Signature signature_with_contact();
   void update_tangent();
   bool factorize();
@@ -201,6 +228,19 @@ class Statics {
   int controlled_ = -1;      // contact under force control
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
+  // Of an increment of which t is an unknown: sphere |u - u_n| = size around the accepted state, or
+  // plane  normal . (u - u_n) = size.
+  struct Arc {
+    double size = 0;  // [mm], of the vector of all dofs
+    VecX normal;      // of a plane; empty for a sphere
+    VecX towards;     // of the beginning; may be empty
+  };
+  std::optional<Arc> arc_;
+  double t_next_ = 0;             // what the last linear solve adds to t
+  VecX rates_;                    // (3 n) of imposed displacements, per t
+  VecX p_, p_next_;               // pressures of given volumes on trial, and what is added [MPa]
+  std::vector<VecX> columns_;     // (free) forces per unknown of the border
+  std::vector<VecX> gradients_;   // (3 n) of each given volume
   VecX dp_;  // of an iterative solution: change of the pressures [MPa]; else empty
   std::vector<VecX> u_start_;  // by contact, (3 n): what the increment's slip is measured from, the
                                // indenter where it began

@@ -182,7 +182,51 @@ Signature Statics::signature() {
   update_tangent();
   std::vector<double> K = equilibrium_.K();
   add_contacts(contacts, dofs, equilibrium_.pattern(), K);
-  return {factor_.linear().negative_pivots(K), 0};
+  return {held_by_volumes(factor_.linear().negative_pivots(K)), 0};
+}
+
+// A given volume holds one direction: with C = F^T K^-1 F of the forces F of unit pressure, the
+// tangent on the movements that keep the volumes has as many negative eigenvalues as K, less those
+// of C.
+int Statics::held_by_volumes(int negative) {
+  if (negative <= 0 || p_.size() == 0) return negative;
+  const TangentFactor::Counts needed = factor_.counts();
+  const bool solvable = factorize();
+  factor_.uncount(needed);
+  factor_serves_ = false;
+  if (!solvable) return negative;
+  const std::vector<VecX> F = volume_gradients();
+  const auto m = static_cast<Eigen::Index>(F.size());
+  MatX C(m, m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const VecX move = factor_.linear().solve(F[static_cast<std::size_t>(j)]);
+    for (Eigen::Index i = 0; i < m; ++i) C(i, j) = F[static_cast<std::size_t>(i)].dot(move);
+  }
+  const VecX e = symmetric_eigenvalues(0.5 * (C + C.transpose()));
+  return negative - static_cast<int>((e.array() < 0).count());
+}
+
+std::vector<double> Statics::constrained_tangent() {
+  equilibrium_.pressures_from(now_.u);
+  const VecX direction = imposed_direction(now_.u);
+  equilibrium_.assemble(now_.u, true, &direction);
+  K_current_ = true;
+  std::vector<double> K = equilibrium_.K();
+  if (contacts_.empty()) return K;
+  const auto n_nodes = static_cast<std::size_t>(equilibrium_.mesh().n_nodes());
+  add_contacts(node_contacts(*this, equilibrium_.mesh().X, n_nodes), equilibrium_.dofs(),
+               equilibrium_.pattern(), K);
+  return K;
+}
+
+std::vector<double> Statics::constrained_tangent(OtherTangent& other) {
+  equilibrium_.pressures_from(now_.u);
+  equilibrium_.assemble_under(now_.u, std::span(&other, 1));
+  if (contacts_.empty()) return other.K;
+  const auto n_nodes = static_cast<std::size_t>(equilibrium_.mesh().n_nodes());
+  add_contacts(node_contacts(*this, equilibrium_.mesh().X, n_nodes), other.dofs, other.pattern,
+               other.K);
+  return other.K;
 }
 
 Signature Statics::signature_under(std::span<OtherTangent> others,

@@ -42,7 +42,7 @@ struct GatherMember {
 };
 
 // The rows of the table: members of the sweep, parameters of one fit, those of a table that a fit
-// made (results/store/record_table.hpp), or frequencies or modes of each member.
+// made (results/store/record_table.hpp), frequencies or modes of each member, or its steps.
 enum class GatherRows {
   members,
   parameters,
@@ -51,11 +51,12 @@ enum class GatherRows {
   population,
   posterior,
   frequencies,
-  modes
+  modes,
+  steps
 };
 constexpr auto names(GatherRows) {
-  return std::array{"members",    "parameters", "laws",        "terms",
-                    "population", "posterior",  "frequencies", "modes"};
+  return std::array{"members",   "parameters",  "laws",  "terms", "population",
+                    "posterior", "frequencies", "modes", "steps"};
 }
 
 // The config of gather. Without any key the table has all quantities of all files.
@@ -73,7 +74,8 @@ struct GatherConfig {
       "true value (of synthetic data), standard error and 95 % interval; laws, terms, population, "
       "posterior: the table of a fit that compared laws, discovered terms, has specimens or a "
       "posterior; frequencies: one for each frequency of each solution with `harmonic`; modes: one "
-      "for each mode of each with `modes`");
+      "for each mode of each with `modes`; steps: one for each row of the curves of each member, "
+      "columns names their columns");
     v(&GatherConfig::columns, "columns", unit::none,
       "names of /summary in the wanted order; by default all of the first member");
     v(&GatherConfig::figures, "figures", unit::none,
@@ -96,7 +98,9 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
   const bool has_own_columns =
       !columns.empty() || !axes.empty() || !figures.empty() || !maps.empty();
   const bool of_vibrations = rows == GatherRows::frequencies || rows == GatherRows::modes;
-  if (rows != GatherRows::members && !of_vibrations && has_own_columns)
+  const bool of_one_table =
+      rows != GatherRows::members && rows != GatherRows::steps && !of_vibrations;
+  if (of_one_table && has_own_columns)
     all.push_back({"rows",
                    std::string(names(rows)[static_cast<std::size_t>(rows)]) +
                        ", together with columns, axes, figures or maps",
@@ -117,6 +121,9 @@ inline std::vector<Complaint> GatherConfig::complaints() const {
           {"axes[" + std::to_string(i) + "].design", "a design together with other axes",
            "the design as the only axis",
            "gather it alone: name one member of the other axes, or give each its own pipeline"});
+  if (rows == GatherRows::steps && (analysed || !maps.empty()))
+    all.push_back({"rows", "steps, together with maps, a design or samples", "none of them",
+                   "they compare members, not their steps"});
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (axes[i].samples && axes.size() > 1)
       all.push_back({"axes[" + std::to_string(i) + "].samples", "samples together with other axes",

@@ -106,6 +106,12 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"isochoric_fibre_stretch_max", "-", "greatest sqrt(I4_bar) over all Gauss points; 1 at rest"},
     {"driving_force", "N mm",
      "work of imposed displacements per unit of t; positive where they do work on the body"},
+    {"load_factor", "-", "of a path with arc lengths: what multiplies all loads and imposed displacements"},
+    {"load_pressure", "MPa", "of a surface that is given a volume; positive into the body"},
+    {"load_pressure_*", "MPa", "the same of each set, where there are several"},
+    {"pumped_volume", "mm^3", "that such a surface has swept since rest; positive into the body"},
+    {"pumped_volume_*", "mm^3", "the same of each set, where there are several"},
+    {"branch", "-", "of `branch`: 0 before the bifurcation, then the sign of the mode"},
     {"volume_change", "-", "greatest |V / V0 - 1| of an element; never negative"},
     {"d_*", "-",
      "of `sensitivity`: derivative of the quantity, in the unit of its name, with respect to the "

@@ -81,6 +81,7 @@ struct LoadConfig {
   std::optional<DeadForce> force;
   std::optional<DeadTraction> traction;
   std::optional<HistoryConfig> pressure;
+  std::optional<HistoryConfig> volume = {};
   static void fields(auto& v) {
     v(&LoadConfig::on, "on", unit::none,
       "node set of the mesh; of a force, a traction or a pressure one that covers facets",
@@ -93,6 +94,9 @@ struct LoadConfig {
     v(&LoadConfig::traction, "traction", unit::none, "dead traction, per area at rest");
     v(&LoadConfig::pressure, "pressure", unit::MPa,
       "pressure that follows the surface, positive into the body; at the end of the path, in proportion to t; or a history");
+    v(&LoadConfig::volume, "volume", "mm^3",
+      "instead of a pressure: the volume that is pumped in behind the surface, swept by it from where it is at rest and positive into "
+      "the body; negative sucks. The pressure is a result, load_pressure. At the end of the path, in proportion to t; or a history");
   }
   bool on_surface() const { return !displacement && !rotation; }
   // components along an axis; none where there is none
@@ -116,6 +120,7 @@ struct LoadConfig {
         if (one) all[std::string(kind) + "xyz"[axis]] = *one;
     if (rotation) all["rotation.angle"] = rotation->angle;
     if (pressure) all["pressure"] = *pressure;
+    if (volume) all["volume"] = *volume;
     return all;
   }
   std::vector<HistoryConfig> histories() const {
@@ -125,10 +130,13 @@ struct LoadConfig {
   }
   std::vector<Complaint> complaints() const {
     constexpr const char* kinds =
-        "exactly one of displacement (with or without rotation), force, traction, pressure";
-    const int n = !on_surface() + force.has_value() + traction.has_value() + pressure.has_value();
+        "exactly one of displacement (with or without rotation), force, traction, pressure, volume";
+    const int n = !on_surface() + force.has_value() + traction.has_value() + pressure.has_value() +
+                  volume.has_value();
     if (n == 0) return {{"", "found no load", kinds, ""}};
     if (n > 1) return {{"", "found several kinds of load", kinds, ""}};
+    if (volume && !volume->moves())
+      return {{"volume", "found no volume", "one other than 0 mm^3 somewhere on the path", ""}};
     if (!histories().empty()) return {};
     std::string key = "traction";
     if (displacement) key = "displacement";

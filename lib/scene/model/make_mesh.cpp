@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "mechanics/mesh/cut.hpp"
@@ -166,6 +167,27 @@ void refuse_folded_in_file(const Quality& q) {
          "repair this cell in the program that made the file, for instance by smaller cells there");
 }
 
+// Lays the bottom of a flat body on a circle about the z direction, convex towards +y.
+void bend_mesh(Mesh& mesh, const MeshConfig& config) {
+  const Box spans = box(config.geometry);
+  const double radius = config.bend->radius;
+  double middle = spans.origin[0] + 0.5 * spans.size[0];
+  const bool round = mesh.section && mesh.section->of == SectionOf::axisymmetric;
+  if (round) middle = 0;
+  const double bottom = spans.origin[1];
+  for (std::size_t i = 0; i < mesh.X.size(); ++i) {
+    Vec3& X = mesh.X[i];
+    const double angle = (X[0] - middle) / radius;
+    const double r = radius + X[1] - bottom;
+    const double depth = X[0] == 0 ? 0 : X[2] / X[0];
+    // a quarter of a circle ends in the plane itself
+    const double cosine = std::abs(std::cos(angle)) < 1e-15 ? 0 : std::cos(angle);
+    X[0] = middle + r * std::sin(angle);
+    X[1] = bottom - radius + r * cosine;
+    if (round) X[2] = depth * X[0];
+  }
+}
+
 // Order matters: cells, their order (second order nodes), cuts, points, bodies, frames, sets. Sets
 // of a mesh file have priority over the names of sides.
 MadeMesh made(const MeshConfig& config) {
@@ -208,6 +230,12 @@ MadeMesh made(const MeshConfig& config) {
       mesh.facet_sets.erase(side);
     }
     for (auto& [name, nodes] : mesh.node_sets) nodes = in_front(mesh, nodes);
+  }
+  if (config.bend) {
+    bend_mesh(mesh, config);
+    mesh.frames = frames(mesh, config.frames);
+    result.quality = quality(mesh);
+    refuse_folded(result.quality, "bend");
   }
   return result;
 }

@@ -71,6 +71,15 @@ struct CutConfig {
   }
 };
 
+struct BendConfig {
+  static constexpr const char* short_key = "radius";
+  double radius = 0;
+  static void fields(auto& v) {
+    v(&BendConfig::radius, "radius", unit::mm,
+      "of the circle on which the bottom of the geometry is laid, its length unchanged", required, positive);
+  }
+};
+
 struct MeshConfig {
   std::string body = "skin";
   std::vector<LayerConfig> bodies;
@@ -78,6 +87,7 @@ struct MeshConfig {
   CellType cells = CellType::hex8;
   std::vector<CutConfig> cuts;
   Frames frames = Frames::global;
+  std::optional<BendConfig> bend = {};
   std::map<std::string, std::array<double, 3>> points;
   std::map<std::string, SetConfig> sets;
   std::vector<MeshFormat> exports;
@@ -95,6 +105,10 @@ struct MeshConfig {
       "regions whose hex8 are cut into eight; the nodes in the middles of larger cells next to them move with the corners of these");
     v(&MeshConfig::frames, "frames", unit::none,
       "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
+    v(&MeshConfig::bend, "bend", unit::none,
+      "a flat block or section is bent about the z direction: an arch; of an axisymmetric section a spherical cap or shell. Its bottom lies "
+      "on a circle that is convex towards +y, its middle (of an axisymmetric section the axis) where it was. Points, sets and sides are "
+      "named on the flat body");
     v(&MeshConfig::points, "points", unit::mm,
       "observation points by name: sets of one node, exactly there");
     v(&MeshConfig::sets, "sets", unit::none,
@@ -142,6 +156,7 @@ struct MeshConfig {
                          fmt::format("{:g} mm, the height of the geometry", height),
                          "change a thickness, or the second number of its size"});
     }
+    if (bend) complain_of_bend(found);
     if (!cuts.empty() && (cells != CellType::hex8 || is_section(geometry)))
       found.push_back(
           {"cuts", "found together with other cells than the hex8 of a body", "none", ""});
@@ -168,6 +183,24 @@ struct MeshConfig {
         found.push_back({"sets." + name, "found the name of a point", "another name", ""});
     }
     return found;
+  }
+
+ private:
+  void complain_of_bend(std::vector<Complaint>& found) const {
+    const auto* section = std::get_if<SectionBox>(&geometry);
+    if (!section && !std::holds_alternative<Block>(geometry)) {
+      found.push_back({"bend", "found with another geometry", "block or section", ""});
+      return;
+    }
+    const Box spans = box(geometry);
+    const bool round = section && section->of == SectionOf::axisymmetric;
+    double angle = spans.size[0] / bend->radius;
+    if (round) angle = 2 * (spans.origin[0] + spans.size[0]) / bend->radius;
+    if (angle > 6.2831853072)
+      found.push_back({"bend.radius", "found a circle that the body goes around more than once",
+                       round ? "at least its outer radius over pi" : "at least its length over 2 pi",
+                       ""});
+    if (!cuts.empty()) found.push_back({"bend", "found together with cuts", "one of the two", ""});
   }
 };
 

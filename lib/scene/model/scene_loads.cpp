@@ -71,6 +71,11 @@ std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& me
       loads.push_back({facets, Vec3::Zero(), p.value, p.factor});
       continue;
     }
+    if (load.volume) {
+      const History v = history_of(*load.volume, config.path.seconds);
+      loads.push_back({facets, Vec3::Zero(), 0, v.factor, v.value, load.on});
+      continue;
+    }
     for (int axis = 0; axis < 3; ++axis) {
       const auto& along = load.dead(axis);
       if (!along || !along->moves()) continue;

@@ -22,6 +22,7 @@
 #include "mechanics/nonlinear/newton.hpp"
 #include "scene/model/dynamics_config.hpp"
 #include "scene/model/fibre_field.hpp"
+#include "scene/model/instability_config.hpp"
 #include "scene/model/load_config.hpp"
 #include "scene/model/mesh_config.hpp"
 #include "scene/model/vibration_config.hpp"
@@ -268,6 +269,9 @@ struct SolveConfig {
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::automatic;
   OnUnstable on_unstable = OnUnstable::warn;
+  LocateCritical critical = LocateCritical::automatic;
+  std::optional<BranchConfig> branch;
+  std::optional<ImperfectionConfig> imperfection;
   SymmetryChoice symmetry = SymmetryChoice::automatic;
   Reduce reduce = Reduce::none;
   Homogeneous homogeneous = Homogeneous::automatic;
@@ -319,6 +323,13 @@ struct SolveConfig {
       "reduces a body with indenters, movements that break the symmetry at the end of the path only. each_step: these at each step, too");
     v(&SolveConfig::on_unstable, "on_unstable", unit::none,
       "what to do where the equilibrium or the material is unstable; stop keeps the steps before");
+    v(&SolveConfig::critical, "critical", unit::none,
+      "auto: where the equilibrium becomes unstable, the critical point is found to 1e-4 of the path, its kind is named (limit point of "
+      "load, limit point of travel, bifurcation) and its mode written; nothing is done where all states are stable");
+    v(&SolveConfig::branch, "branch", unit::none,
+      "follow: at the first bifurcation the path goes on along the mode; solves the whole body, once as far as there and once more");
+    v(&SolveConfig::imperfection, "imperfection", unit::none,
+      "moves the nodes of the mesh along a mode of the perfect body, which is solved as far as its first critical point before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
       "solve the part of the body that decides the rest, write the whole of it; auto: the largest symmetry that mesh, fibres, "
       "supports, loads and contacts have. The path stays symmetric where the body becomes unstable, and `stability` says so: none solves "
@@ -422,6 +433,7 @@ struct SolveConfig {
              "errors are estimated of the force that it needs, or of the displacement of mesh.points; estimate: recovery reports "
              "that of the stress"});
     }
+    complain_of_instabilities(found);
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off",
                        "stability: auto, each_step or last", ""});
@@ -476,6 +488,73 @@ struct SolveConfig {
                        "indenter: the name of one of them, or face: a node set", ""});
     }
   }
+  // What does not go together with arc lengths, given volumes, branches and imperfections.
+  void complain_of_instabilities(std::vector<Complaint>& found) const {
+    std::string volume;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (loads[i].volume && volume.empty()) volume = "loads[" + std::to_string(i) + "].volume";
+    const auto refuse = [&](const std::string& key, const char* with, const char* expected,
+                            const char* hint) {
+      found.push_back({key, std::string("found together with ") + with, expected, hint});
+    };
+    std::vector<std::string> keys;  // of what is asked for
+    if (!volume.empty()) keys.push_back(volume);
+    if (path.arc_length) keys.emplace_back("path.arc_length");
+    if (branch) keys.emplace_back("branch");
+    if (imperfection) keys.emplace_back("imperfection");
+    for (const std::string& key : keys) {
+      if (const auto* newton = std::get_if<NewtonOptions>(&solver); !newton)
+        refuse(key, "solver.kinsol", "solver: {newton: {}}", "KINSOL has no room for its equation");
+      else if (newton->linear == LinearBy::iterative)
+        refuse(key, "solver.newton.linear: iterative", "direct or auto", "it needs a factor");
+      if (accuracy || fidelity) refuse(key, key_of_accuracy().c_str(), "one of the two", no_levels);
+      const bool estimates = estimate && *estimate != EstimateBy::none;
+      if (estimates) refuse(key, "estimate", "estimate: none", no_levels);
+      if (!sensitivity.empty())
+        refuse(key, "sensitivity", "one of the two", "derivatives are those of given loads");
+      if (uncertainty)
+        refuse(key, "uncertainty", "one of the two", "derivatives are those of given loads");
+      if (reduce == Reduce::automatic)
+        refuse(key, "reduce: auto", "one of the two", "a section of its own: geometry: {section: ...}");
+    }
+    for (const std::string& key : {volume, std::string(path.arc_length ? "path.arc_length" : "")})
+      if (!key.empty() && !contacts.empty())
+        refuse(key, "contacts", "a scene without indenters",
+               "its equation does not stand beside those of contact yet: hold or move sets of nodes");
+    if (!volume.empty() && path.arc_length)
+      refuse("path.arc_length", "a given volume", "one of the two",
+             "volumes grow where pressures turn back: no arc length is needed");
+    for (std::size_t i = 0; path.arc_length && i < loads.size(); ++i)
+      for (const auto& [key, history] : loads[i].histories_by_key()) {
+        const std::string at = "loads[" + std::to_string(i) + "]." + key;
+        if (!history.points.empty())
+          refuse(at, "path.arc_length", "a number: a load in proportion to the load factor",
+                 "the load factor turns back, and a history has no time to");
+        if (key == "rotation.angle")
+          refuse(at, "path.arc_length", "displacements and forces",
+                 "a turn is not in proportion to the load factor");
+      }
+    for (const std::string& key : {std::string(branch ? "branch" : ""),
+                                   std::string(imperfection ? "imperfection" : "")}) {
+      if (key.empty()) continue;
+      if (stability == StabilityCheck::off)
+        refuse(key, "stability: off", "stability: auto", "critical points are where signs change");
+      if (path.seconds) refuse(key, "path.seconds", "a path without", "elastic bodies have modes");
+      if (!contacts.empty())
+        refuse(key, "contacts", "a scene without indenters", "modes with contact are written only");
+      if (symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none)
+        refuse(key, "symmetry", "symmetry: none or auto", "a mode may break it: the whole body is solved");
+      if (mesh && !mesh->cuts.empty())
+        refuse(key, "mesh.cuts", "a mesh without cuts", "nodes that hang follow no mode");
+    }
+    if (branch && imperfection)
+      refuse("imperfection", "branch", "one of the two",
+             "an imperfect body has no bifurcation: its path is the branch");
+    if (branch && on_unstable == OnUnstable::stop)
+      refuse("branch", "on_unstable: stop", "on_unstable: warn", "a branch may begin unstable");
+  }
+  static constexpr const char* no_levels =
+      "errors are estimated of paths whose loads are given, on meshes of several sizes";
   // histories in seconds go from the beginning of the path to its end
   void complain_of_seconds(std::vector<Complaint>& found) const {
     const auto look_at = [&](const auto& points, const std::string& key) {

@@ -287,7 +287,9 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
     VecX u(3 * static_cast<Eigen::Index>(record.u.size()));
     for (std::size_t i = 0; i < record.u.size(); ++i)
       u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
-    state.loads = loads.forces(record.t, u);
+    Loads now = loads;
+    now.set_pressures(pressures_of(record, loads));
+    state.loads = now.forces(load_factor_of(record), u);
   }
   for (const char* part :
        {"energy", "viscous_work", "adhesion_stored", "adhesion_dissipated", "energy_released"})

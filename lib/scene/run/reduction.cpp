@@ -21,19 +21,25 @@ Reduction::Reduction(const Mesh& mesh, const Scene& scene, std::unique_ptr<Homog
 Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfig& config,
                           const std::function<Place(const std::string&)>& where, bool at_a_point) {
   const SceneParameters parameters(config, mesh, scene, where);
+  // A mode has the shape that a hexahedron alone or a part of the body does not have.
+  const bool all_of_it = config.branch || config.imperfection;
+  const bool on_a_mesh = all_of_it || config.path.arc_length;
+  for (const LoadConfig& load : config.loads) at_a_point = at_a_point && !load.volume;
+  at_a_point = at_a_point && !on_a_mesh;
+  const SymmetryChoice wanted = all_of_it ? SymmetryChoice::none : config.symmetry;
   // A change of fibre angles would shear a body that is only stretched: no single hexahedron then.
   if (at_a_point && !parameters.turns_fibres())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
   if (config.sensitivity.empty())
-    return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where), config.threads};
+    return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where), config.threads};
   const Scene varied = parameters.varied_unlike(scene, mesh);
   if (mesh.section)
     if (const auto errors = section_errors(config, mesh, varied, where); !errors.empty())
       throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity",
                                         "found a number that a section has to leave as it is",
                                         "others", errors.front().found});
-  return {mesh, scene, ReducedScene::find(config.symmetry, mesh, scene, where, &varied),
+  return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where, &varied),
           config.threads};
 }
 

@@ -1,6 +1,8 @@
 #include "scene/run/run.hpp"
 #include "core/base/text.hpp"
 
+#include <cmath>
+
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
 #include "mechanics/solve/release.hpp"
@@ -18,6 +20,8 @@ StaticsOptions threads_of(const SolveConfig& config) {
   options.seconds = config.path.seconds.value_or(0);
   if (const auto* newton = std::get_if<NewtonOptions>(&config.solver))
     options.linear_by = newton->linear;
+  if (config.path.arc_length || config.branch || config.imperfection)
+    options.linear_by = LinearBy::direct;
   return options;
 }
 
@@ -54,18 +58,69 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
   BodyState earlier = statics.accepted();
   if (before) {
-    earlier = reduction.reduced(*before);
+    earlier = state_from(*before);
   } else {
     // the body at rest
     earlier.t = 0;
     earlier.travel = 0;
     earlier.u.setZero();
+    earlier.pressures.setZero();
     for (auto& reactions : earlier.r)
       std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
   }
   increment_ = last.scalars.at("next_increment");
-  resumed_ = Resumed{reduction.reduced(last), std::move(earlier), *increment_};
+  resumed_ = Resumed{state_from(last), std::move(earlier), *increment_};
   statics.restore(resumed_->now, &resumed_->before);
+  t_ = last.t;
+}
+
+BodyState Run::state_from(const StepRecord& step) const {
+  BodyState state = reduction.reduced(step);
+  state.t = load_factor_of(step);
+  state.pressures = pressures_of(step, body.loads());
+  return state;
+}
+
+void Run::begin(double t) {
+  if (switch_ && std::abs(t_ - switch_->t) <= 1e-12) {
+    begin_branch(t);
+  } else if (path.arc_length) {
+    statics.begin_arc(path.arc_length->length * (t - t_));
+  } else {
+    statics.begin(t);
+  }
+}
+
+SolveReport Run::solve_at(double t) {
+  begin(t);
+  return equilibrium_by(solver, statics);
+}
+
+void Run::put_at(double t, const BodyState& state, const BodyState& before) {
+  statics.restore(state, &before);
+  t_ = t;
+}
+
+// The first increment of a branch. With arc lengths it goes along the mode. At a given t the trial
+// state is found in two steps: the equilibrium at which the mode has the amplitude of the config,
+// its t being an unknown, and then the same movement scaled to t, as a fork opens with the square
+// root of the distance from its beginning.
+void Run::begin_branch(double t) {
+  if (path.arc_length) {
+    const VecX towards = switch_->mode;
+    statics.begin_arc(path.arc_length->length * (t - t_), &towards);
+    return;
+  }
+  const BodyState at = statics.accepted();
+  statics.begin_along(switch_->mode / switch_->mode.norm(),
+                      switch_->amplitude * switch_->mode.norm());
+  const SolveReport report = equilibrium_by(solver, statics);
+  const double found = statics.trial_t();
+  const VecX step = statics.trial() - at.u;
+  statics.begin(t);
+  if (!report.converged() || !(found > switch_->t)) return;
+  const VecX guess = at.u + std::sqrt((t - at.t) / (found - at.t)) * step;
+  statics.begin_from(guess);
 }
 
 // In a shared run only rank 0 reads the file; the other ranks receive its state.
@@ -79,7 +134,7 @@ void Run::resume_all() {
 
 void Run::replay(const StepRecord& step) {
   if (!body.viscous()) return;
-  statics.replay(reduction.reduced(step));
+  statics.replay(state_from(step));
   reduction.replay(step);
 }
 
@@ -91,6 +146,11 @@ RunEnd::At Run::record_step(const RunListener& listener, double t, double taken,
     return RunEnd::At::the_end;
   StepRecord record = step_record(statics, body, taken, next, report);
   if (path.seconds) record.scalars["time"] = t * *path.seconds;
+  if (path.arc_length) {
+    record.scalars["load_factor"] = record.t;
+    record.t = t;
+  }
+  if (switch_) record.scalars["branch"] = t > switch_->t + 1e-12 ? switch_->sign : 0;
   if (listener.of_part && !listener.of_part(record)) return RunEnd::At::listener;
   std::optional<StepRecord> whole = reduction.whole(record);
   if (!whole) return RunEnd::At::not_homogeneous;
@@ -112,7 +172,7 @@ RunEnd Run::follow(const RunListener& listener) {
       return signal != 0;
     };
     if (stopped()) return SolveReport{.outcome = Outcome::stopped, .why = "stopped by a signal"};
-    statics.begin(t);
+    begin(t);
     const double began = wall_seconds();
     bool too_slow = false;
     const auto stopped_or_slow = [&] {
@@ -155,14 +215,16 @@ RunEnd Run::follow(const RunListener& listener) {
   };
   const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
     statics.accept();
+    t_ = t;
     const auto record = [&] {
       end.at = record_step(listener, t, taken, next, report, end);
       return end.at == RunEnd::At::the_end;
     };
     return on_root_rank(shared_by(), record) && (signal = signal_of(shared_by())) == 0;
   };
-  end.path =
-      load_path(path, statics.accepted().t, increment_, reduction.scene().stops, attempt, accepted);
+  std::vector<double> stops = reduction.scene().stops;
+  if (switch_) stops.push_back(switch_->t);
+  end.path = load_path(path, t_, increment_, stops, attempt, accepted);
   if (!shared_by()) signal = interrupted();
   if (!end.path.complete && end.at == RunEnd::At::the_end)
     end.at = signal != 0 ? RunEnd::At::signal : RunEnd::At::no_equilibrium;

@@ -67,11 +67,31 @@ class Run {
     if (body.division()) return body.division()->ranks;
     return nullptr;
   }
+  // One equilibrium at t from where it stands, not accepted yet: increments of a search.
+  SolveReport solve_at(double t);
+  // Puts it at a state that was found before, and the one before that.
+  void put_at(double t, const BodyState& state, const BodyState& before);
+  double t() const { return t_; }  // of the accepted state, on the path
+  BodyState state_from(const StepRecord& step) const;  // of the model that is solved
+
+  // The path leaves at t along a mode: (3 n) of the model, its largest movement 1.
+  struct Switch {
+    double t = 0;
+    VecX mode;
+    double amplitude = 0;  // [mm]
+    double sign = 1;       // recorded
+  };
+  void switch_branch(Switch at) { switch_ = std::move(at); }
+
   // From where it stands to t = 1; of several ranks rank 0 alone has a listener and the last
   // record. A signal (base/interrupt.hpp) ends it after the increment in which it comes.
   RunEnd follow(const RunListener& listener = {});
 
  private:
+  void begin(double t);
+  void begin_branch(double t);
+  double t_ = 0;
+  std::optional<Switch> switch_;
   RunEnd::At record_step(const RunListener& listener, double t, double taken, double next,
                          const SolveReport& report, RunEnd& end);
   std::optional<double> increment_;  // to begin with

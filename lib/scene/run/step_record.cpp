@@ -95,6 +95,26 @@ void hang(const Assembler& body, const VecX& u, std::vector<Vec3>& nodal) {
   }
 }
 
+std::string of_volume(const char* name, const Loads& loads, int i) {
+  if (loads.n_volumes() == 1) return name;
+  return std::string(name) + "_" + loads.volume_load(i).on;
+}
+
+double load_factor_of(const StepRecord& step) {
+  const auto found = step.scalars.find("load_factor");
+  if (found == step.scalars.end()) return step.t;
+  return found->second;
+}
+
+VecX pressures_of(const StepRecord& step, const Loads& loads) {
+  VecX pressures = VecX::Zero(loads.n_volumes());
+  for (int i = 0; i < loads.n_volumes(); ++i) {
+    const auto found = step.scalars.find(of_volume("load_pressure", loads, i));
+    if (found != step.scalars.end()) pressures[i] = found->second;
+  }
+  return pressures;
+}
+
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
   return indenter_displacement(indenter, step.t,
                                indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
@@ -124,6 +144,10 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
   if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
+  for (int i = 0; i < body.loads().n_volumes(); ++i) {
+    record.scalars[of_volume("load_pressure", body.loads(), i)] = state.pressures[i];
+    record.scalars[of_volume("pumped_volume", body.loads(), i)] = body.swept_volume(i, state.u);
+  }
   const auto& contacts = statics.contacts();
   if (contacts.empty()) return record;
   const auto defects = statics.defects();
@@ -152,7 +176,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
 // The inverse of step_record: the state from which a run continues.
 BodyState state_of(const StepRecord& record, const Scene& scene) {
   BodyState state;
-  state.t = record.t;
+  state.t = load_factor_of(record);
   state.u.resize(3 * static_cast<Eigen::Index>(record.u.size()));
   for (std::size_t i = 0; i < record.u.size(); ++i)
     state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) = record.u[i];
