@@ -175,7 +175,7 @@ VecX Statics::solve_with_follower_loads(const VecX& rhs) {
 std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   LinearSolver& linear = factor_.linear();
   VecX move;
-  if (contacts_.empty()) {
+  if (contacts_.empty() && bodies_.empty()) {
     const Stopwatch watch(cost_.solve);
     move = solve_with_follower_loads(rhs);
   } else {
@@ -191,9 +191,15 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
       const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
       double force = 0;
       if (controlled_ >= 0) force = controlled()->control->force.at(t_);
-      change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
+      const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
+      if (!bodies_.empty()) {
+        change = linearised_bodies(state, bodies_, now_.u, remaining_prescribed(u_), factor_,
+                                   half.last);
+      } else {
+        change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
                                    controlled_, force, start_moves(), &bonds_},
                                   factor_, half.last);
+      }
     }
     if (!change) return std::nullopt;
     r_next_ = std::move(change->r);

@@ -51,6 +51,8 @@ void Statics::begin(double t) {
     extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) move_to_touch();
   slip_from_touch();
+  if (!bodies_.empty())
+    bodies_.turn(equilibrium_.mesh().X, now_.u, u_ - now_.u, r_, contacts_.size());
   if (starts_with_travel()) expected_ = u_;
 }
 

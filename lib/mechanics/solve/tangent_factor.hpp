@@ -39,6 +39,9 @@ class TangentFactor {
   // LinearBy::iterative is asked for and does not serve.
   TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts, int threads,
                 ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
+  // with further nodes in contact, of deformable surfaces: contact is condensed
+  TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts,
+                const std::vector<int>& further, int threads);
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment();
@@ -92,6 +95,7 @@ class TangentFactor {
                       LinearBy linear_by);
   void take_into_tangent(const Assembler& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Assembler& body);
+  void eliminate_last(const Dofs& dofs, const std::vector<int>& nodes);
 
   std::vector<int> last_, last_of_;
   std::unique_ptr<ContactInTangent> in_tangent_;
