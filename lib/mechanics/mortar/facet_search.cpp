@@ -15,7 +15,7 @@ using Corner3 = geometry::model::point<double, 3, geometry::cs::cartesian>;
 using Box3 = geometry::model::box<Corner3>;
 using Entry = std::pair<Box3, int>;
 
-Box3 box_of(const BoundingBox& box) {
+Box3 boost_box(const BoundingBox& box) {
   return {Corner3(box.low[0], box.low[1], box.low[2]),
           Corner3(box.high[0], box.high[1], box.high[2])};
 }
@@ -30,7 +30,7 @@ FacetSearch::FacetSearch(const std::vector<BoundingBox>& boxes) : tree_(std::mak
   std::vector<Entry> entries;
   entries.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    entries.emplace_back(box_of(boxes[i]), static_cast<int>(i));
+    entries.emplace_back(boost_box(boxes[i]), static_cast<int>(i));
   tree_->boxes = decltype(tree_->boxes)(entries);
 }
 
@@ -38,7 +38,7 @@ FacetSearch::~FacetSearch() = default;
 
 std::vector<int> FacetSearch::meeting(const BoundingBox& box) const {
   std::vector<Entry> found;
-  tree_->boxes.query(geometry::index::intersects(box_of(box)), std::back_inserter(found));
+  tree_->boxes.query(geometry::index::intersects(boost_box(box)), std::back_inserter(found));
   std::vector<int> indices;
   for (const Entry& entry : found) indices.push_back(entry.second);
   std::sort(indices.begin(), indices.end());

@@ -16,8 +16,6 @@ constexpr double much = 0.6;
 // facets face each other where the cosine of their normals is below this
 constexpr double facing = -0.2;
 
-Vec3 position(const VecX& x, int node) { return x.segment<3>(3 * static_cast<Eigen::Index>(node)); }
-
 BoundingBox box_of(const QuadNodes& facet, const VecX& x, double more) {
   BoundingBox box{position(x, facet[0]), position(x, facet[0])};
   for (int node : facet) {

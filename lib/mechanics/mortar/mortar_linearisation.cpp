@@ -10,8 +10,6 @@ namespace langer {
 
 namespace {
 
-Vec3 position(const VecX& x, int node) { return x.segment<3>(3 * static_cast<Eigen::Index>(node)); }
-
 // Adds to a matrix at columns of degrees of freedom, if they have one.
 class Columns {
  public:

@@ -10,8 +10,6 @@ namespace langer {
 
 namespace {
 
-Vec3 position(const VecX& x, int node) { return x.segment<3>(3 * static_cast<Eigen::Index>(node)); }
-
 // The depth of a point below a facet, along its normal; 0 where it is not over it, or above. A facet
 // is two pairs of triangles; the shallower answer of the two is that of the bilinear surface between.
 double depth_below(const QuadNodes& facet, const VecX& x, const Vec3& point, double reach) {

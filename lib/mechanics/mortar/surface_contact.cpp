@@ -15,8 +15,6 @@ namespace langer {
 
 namespace {
 
-Vec3 position(const VecX& x, int node) { return x.segment<3>(3 * static_cast<Eigen::Index>(node)); }
-
 QuadNodes corners(const Mesh& mesh, const Facet& facet) {
   const std::vector<int> nodes = facet_nodes(mesh, facet);
   return {nodes[0], nodes[1], nodes[2], nodes[3]};

@@ -29,6 +29,11 @@ namespace langer {
 
 using QuadNodes = std::array<int, 4>;  // counter-clockwise from outside
 
+// of a node, in a nodal field (3 n)
+inline Vec3 position(const VecX& x, int node) {
+  return x.segment<3>(3 * static_cast<Eigen::Index>(node));
+}
+
 struct SurfaceContact {
   std::string name;
   double mu = 0;
