@@ -76,7 +76,7 @@ bool overlap_of(const QuadNodes& own, const QuadNodes& other, const VecX& x, Fac
   return true;
 }
 
-// Whether two facets of one surface, or of two, may touch at all.
+// Whether two facets may touch at all: they face each other, and are near.
 bool may_touch(const SurfaceContact& contact, int own, int other, const VecX& x) {
   const QuadNodes& a = contact.own[static_cast<std::size_t>(own)];
   const QuadNodes& b = contact.other[static_cast<std::size_t>(other)];
@@ -92,15 +92,7 @@ bool may_touch(const SurfaceContact& contact, int own, int other, const VecX& x)
     low = std::min(low, away);
     high = std::max(high, away);
   }
-  if (low >= contact.reach || high <= -contact.reach) return false;
-  if (!contact.self) return true;
-  // Of one surface each pair is looked at once, neighbours never, and what is behind the surface by
-  // more than a quarter of the reach is the far side of a thin part.
-  if (other <= own || high < -0.25 * contact.reach) return false;
-  for (int i : a)
-    for (int j : b)
-      if (i == j) return false;
-  return true;
+  return low < contact.reach && high > -contact.reach;
 }
 
 void set_weights(MortarFacet& facet) {

@@ -39,7 +39,7 @@ double depth_below(const QuadNodes& facet, const VecX& x, const Vec3& point, dou
 }
 
 double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNodes>& facets,
-               const VecX& x, double reach, bool self) {
+               const VecX& x, double reach) {
   std::vector<BoundingBox> boxes;
   for (const QuadNodes& facet : facets) {
     BoundingBox box{position(x, facet[0]), position(x, facet[0])};
@@ -57,7 +57,6 @@ double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNod
     const Vec3 point = position(x, node);
     for (int f : search.meeting({point.array() - reach, point.array() + reach})) {
       const QuadNodes& facet = facets[static_cast<std::size_t>(f)];
-      if (self && std::find(facet.begin(), facet.end(), node) != facet.end()) continue;
       deep = std::max(deep, depth_below(facet, x, point, reach));
     }
   }
@@ -67,11 +66,9 @@ double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNod
 }  // namespace
 
 double penetration(const SurfaceContact& contact, const VecX& x) {
-  // of one surface only what is near: the far side of a thin part is behind every facet
-  const double reach = contact.self ? contact.reach / 12 : contact.reach / 3;
-  const double own = deepest(contact.own, contact.other, x, reach, contact.self);
-  if (contact.self) return own;
-  return std::max(own, deepest(contact.other, contact.own, x, reach, false));
+  const double reach = contact.reach / 3;
+  return std::max(deepest(contact.own, contact.other, x, reach),
+                  deepest(contact.other, contact.own, x, reach));
 }
 
 }  // namespace langer

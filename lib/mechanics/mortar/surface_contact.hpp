@@ -37,7 +37,6 @@ inline Vec3 position(const VecX& x, int node) {
 struct SurfaceContact {
   std::string name;
   double mu = 0;
-  bool self = false;             // both sides are one surface
   std::vector<QuadNodes> own;    // facets of the non-mortar side
   std::vector<QuadNodes> other;  // of the side that it touches
   std::vector<int> nodes;        // of `own`, ascending: the candidates

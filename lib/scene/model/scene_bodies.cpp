@@ -259,18 +259,17 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
         facets_of(mesh, *contact.against, key + ".against", where, errors);
     if (own.empty() || other.empty()) continue;
     SurfaceContact surface = surface_contact(name, contact.friction, mesh, own, other);
-    surface.self = contact.self;
     std::vector<int> others;
     for (const QuadNodes& facet : surface.other) others.insert(others.end(), facet.begin(), facet.end());
     std::sort(others.begin(), others.end());
     const bool shared = std::any_of(surface.nodes.begin(), surface.nodes.end(), [&](int node) {
       return std::binary_search(others.begin(), others.end(), node);
     });
-    if (shared && !surface.self) {
+    if (shared) {
       errors.push_back({where(key + ".against"), key + ".against",
                         "shares nodes with the set of `on`: the two are glued there",
                         "a surface of another body",
-                        "`bodies` gives each body a mesh of its own; self: true is for one set"});
+                        "`bodies` gives each body a mesh of its own"});
       continue;
     }
     refuse_overlap(surface, mesh, key, where, errors);

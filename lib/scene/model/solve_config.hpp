@@ -85,7 +85,6 @@ struct ContactConfig {
   std::optional<HistoryConfig> rotation = {};
   std::optional<Adhesion> adhesion = {};
   std::optional<std::string> against = {};
-  bool self = false;
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none,
       "node set that may touch the indenter; none: nodes of the boundary that it can reach. With `against`: the surface at whose "
@@ -94,8 +93,6 @@ struct ContactConfig {
       "shape and place of the indenter; or `against` in its place");
     v(&ContactConfig::against, "against", unit::none,
       "the set of facets that `on` touches, in place of `rigid`: two deformable surfaces of hex8");
-    v(&ContactConfig::self, "self", unit::none,
-      "one surface touches itself: `against` names the same set as `on`");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -115,9 +112,6 @@ struct ContactConfig {
     if (deformable()) return of_surfaces();
     if (!rigid)
       return {{"rigid", "missing", "a shape and place of the indenter, or `against: <set>`", ""}};
-    if (self)
-      return {{"self", "found without `against`", "a surface that touches itself",
-               "{on: top, against: top, self: true}"}};
     std::vector<Complaint> found = of_rotation();
     if (control && adhesion)
       found.push_back({"control", "found together with adhesion", "one of the two",
@@ -159,12 +153,10 @@ struct ContactConfig {
     refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
     if (on.empty())
       found.push_back({"on", "missing", "the set that touches `against`", ""});
-    else if (on == *against && !self)
+    else if (on == *against)
       found.push_back({"against", "found the set of `on`", "the set of another surface",
-                       "a surface that touches itself: {on: " + on + ", against: " + on +
-                           ", self: true}"});
-    if (self && on != *against)
-      found.push_back({"self", "found with two sets", "one set, as `on` and as `against`", ""});
+                       "a surface that touches itself is not computed yet: name two parts of it that "
+                       "share no node"});
     return found;
   }
   std::vector<Complaint> of_rotation() const {
