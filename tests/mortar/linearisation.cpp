@@ -23,8 +23,7 @@ TwoSurfaces curved_surfaces() {
 
 VecX wave(Eigen::Index n, double size, double phase) {
   VecX u(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    u[i] = size * std::sin(phase + 1.7 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < n; ++i) u[i] = size * std::sin(phase + 1.7 * static_cast<double>(i));
   return u;
 }
 
@@ -118,8 +117,8 @@ TEST_CASE("forces and moments of two curved surfaces balance, whatever the react
 
 TEST_CASE("a gap that is linear over a flat surface is met at each node exactly") {
   const TwoSurfaces s = two_surfaces(
-      {3, 3, 0.1, 1.9, 0.15, 1.8}, {5, 4, 0, 2, 0, 2},
-      [](double, double) { return 0.3; }, [](double x, double z) { return 0.1 * x - 0.05 * z; });
+      {3, 3, 0.1, 1.9, 0.15, 1.8}, {5, 4, 0, 2, 0, 2}, [](double, double) { return 0.3; },
+      [](double x, double z) { return 0.1 * x - 0.05 * z; });
   const auto nodes = mortar_nodes(s.contact, s.x);
   REQUIRE(nodes.size() == 16);
   for (const MortarNode& node : nodes) {

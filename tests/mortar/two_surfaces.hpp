@@ -54,7 +54,8 @@ TwoSurfaces two_surfaces(const Patch& upper, const Patch& lower, const Upper& up
   for (int n = 0; n < static_cast<int>(X.size()); ++n) out.contact.all_nodes.push_back(n);
   out.contact.reach = 2;
   out.x.resize(3 * static_cast<Eigen::Index>(X.size()));
-  for (std::size_t n = 0; n < X.size(); ++n) out.x.segment<3>(3 * static_cast<Eigen::Index>(n)) = X[n];
+  for (std::size_t n = 0; n < X.size(); ++n)
+    out.x.segment<3>(3 * static_cast<Eigen::Index>(n)) = X[n];
   return out;
 }
 

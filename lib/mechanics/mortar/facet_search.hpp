@@ -1,5 +1,5 @@
-// Which facets may touch which: boxes around facets in a tree (R-tree of Boost.Geometry), whose cost
-// grows with n log n of the number of facets.
+// Which facets may touch which: boxes around facets in a tree (R-tree of Boost.Geometry), whose
+// cost grows with n log n of the number of facets.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// A number with its derivatives with respect to N variables. Sums, products and quotients follow the
-// rules of calculus, so that a function written for any number type is differentiated exactly.
+// A number with its derivatives with respect to N variables. Sums, products and quotients follow
+// the rules of calculus, so that a function written for any number type is differentiated exactly.
 #pragma once
 
 #include <Eigen/Core>

@@ -125,8 +125,7 @@ std::vector<WeightChange> weight_changes(const SurfaceContact& contact, const Mo
 }  // namespace
 
 MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<char>& wanted,
-                     const VecX& x, const VecX& x0,
-                     const std::vector<Vec3>& reactions) {
+                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions) {
   MortarLaw law;
   const VecX moved = x - x0;
   for (const MortarNode& node : nodes) {
@@ -222,8 +221,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
           if (acts) own_force[static_cast<std::size_t>(j)] += d * force;
         }
         for (std::size_t o = 0; o < facet.overlaps.size(); ++o) {
-          const QuadNodes& other =
-              contact.other[static_cast<std::size_t>(facet.overlaps[o].other)];
+          const QuadNodes& other = contact.other[static_cast<std::size_t>(facet.overlaps[o].other)];
           for (int k = 0; k < 4; ++k) {
             const int node = other[static_cast<std::size_t>(k)];
             const double d = change.dB[o](i, k);

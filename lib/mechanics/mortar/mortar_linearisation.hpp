@@ -28,8 +28,7 @@ struct MortarMatrices {
 // column_of (3 n): column of a degree of freedom, -1: none. first_row: of this contact's rows in
 // `into`, which is large enough and to which all is added.
 MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<char>& wanted,
-                     const VecX& x, const VecX& x0,
-                     const std::vector<Vec3>& reactions);
+                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions);
 void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, const VecX& x,
                          const VecX& x0, const std::vector<int>& column_of, int first_row,
                          MortarMatrices& into);

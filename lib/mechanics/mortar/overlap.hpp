@@ -7,8 +7,9 @@
 //   2. the second polygon is clipped by the edges of the first                (Sutherland-Hodgman)
 //   3. what is left is divided into triangles about its middle, with Gauss points in each
 //   4. each Gauss point is found in both facets (inverse of the bilinear map)
-// The number type T is double, or Jet (mortar/jet.hpp) where derivatives with respect to the corners
-// are asked for.                                            [Puso, Laursen 2004], [Popp et al. 2010]
+// The number type T is double, or Jet (mortar/jet.hpp) where derivatives with respect to the
+// corners are asked for.                                            [Puso, Laursen 2004], [Popp et
+// al. 2010]
 #pragma once
 
 #include <array>
@@ -70,8 +71,8 @@ T twice_area(const Point<T>& a, const Point<T>& b, const Point<T>& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// What of `subject` is to the left of the line from a to b. Corners within `slack` of the line count
-// as on it.
+// What of `subject` is to the left of the line from a to b. Corners within `slack` of the line
+// count as on it.
 template <class T>
 Polygon<T> clipped(const Polygon<T>& subject, const Point<T>& a, const Point<T>& b, double slack) {
   Polygon<T> out;
@@ -192,8 +193,8 @@ bool add_overlap(const Quad<T>& first, const Quad<T>& second, Overlap<T>& out) {
   };
   const std::array<Point<T>, 4> a = projected(first);
   const std::array<Point<T>, 4> b = projected(second);
-  const double size = std::abs(value(twice_area(a[0], a[1], a[2]))) +
-                      std::abs(value(twice_area(a[0], a[2], a[3])));
+  const double size =
+      std::abs(value(twice_area(a[0], a[1], a[2]))) + std::abs(value(twice_area(a[0], a[2], a[3])));
   Polygon<T> common;
   for (const Point<T>& p : b) common.add(p);
   for (std::size_t k = 0; k < 4 && common.n > 2; ++k)

@@ -10,8 +10,9 @@ namespace langer {
 
 namespace {
 
-// The depth of a point below a facet, along its normal; 0 where it is not over it, or above. A facet
-// is two pairs of triangles; the shallower answer of the two is that of the bilinear surface between.
+// The depth of a point below a facet, along its normal; 0 where it is not over it, or above. A
+// facet is two pairs of triangles; the shallower answer of the two is that of the bilinear surface
+// between.
 double depth_below(const QuadNodes& facet, const VecX& x, const Vec3& point, double reach) {
   double least = 0;
   for (int first : {0, 1}) {

@@ -7,8 +7,8 @@
 
 #include "core/base/text.hpp"
 #include "mechanics/assembly/separate_bodies.hpp"
+#include "mechanics/mesh/section.hpp"
 #include "scene/model/make_mesh.hpp"
-#include "scene/model/scene_loads.hpp"
 
 namespace langer {
 
@@ -183,6 +183,15 @@ void refuse_overlap(const SurfaceContact& surface, const Mesh& mesh, const std::
                     "move a mesh by the origin of its geometry"});
 }
 
+std::string name_of_body(const Mesh& mesh, int node) {
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto cell = mesh.cell(e);
+    if (std::find(cell.begin(), cell.end(), node) != cell.end())
+      return mesh.bodies[static_cast<std::size_t>(mesh.body[static_cast<std::size_t>(e)])];
+  }
+  return "";
+}
+
 // A body that can move as a whole, and what is against it has no friction. One translation across
 // the surface is left to the contact; all else is not held by anything.
 void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescribed>& prescribed,
@@ -213,12 +222,7 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
           std::binary_search(body.begin(), body.end(), contact.nodes.front()))
         rough = true;  // examined with the indenters
     if (rough) continue;
-    const std::string name = mesh.bodies[static_cast<std::size_t>(mesh.body[[&] {
-      for (int e = 0; e < mesh.n_cells(); ++e)
-        if (std::binary_search(body.begin(), body.end(), mesh.cell(e)[0]))
-          return static_cast<std::size_t>(e);
-      return std::size_t{0};
-    }()])];
+    const std::string name = name_of_body(mesh, body.front());
     if (!smooth) {
       errors.push_back({where("supports"), "supports",
                         fmt::format("nothing holds the body \"{}\": {}", name, free),
