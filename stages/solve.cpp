@@ -14,6 +14,7 @@
 #include "identification/inverse/uncertainty.hpp"
 #include "results/store/step_journal.hpp"
 #include "scene/model/material_review.hpp"
+#include "scene/model/scene_bodies.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/dry_run.hpp"
 #include "scene/run/mirrored_solution.hpp"
@@ -205,7 +206,9 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
       {summary_of(run, end, recording.n_steps()), results, of_fibres, watch.stability_summary()});
 }
 
-Summaries solve(const Job<SolveConfig>& job) {
+Summaries solve(const Job<SolveConfig>& given) {
+  Job<SolveConfig> job = given;
+  expand_bodies(job.config, job.where.tree);
   // A worker rank notes a signal and waits for rank 0, which ends the run for all.
   std::optional<Interruptible> worker_signals;
   if (ranks() && !ranks()->first()) worker_signals.emplace();

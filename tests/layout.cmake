@@ -5,7 +5,7 @@
 # of its own room and of the rooms listed before it, so there are no cycles. `make map` draws the wings.
 set(rooms
   core/base core/tensor core/config core/hdf5
-  mechanics/mesh mechanics/contact mechanics/material mechanics/element mechanics/assembly
+  mechanics/mesh mechanics/contact mechanics/mortar mechanics/material mechanics/element mechanics/assembly
   mechanics/linear mechanics/nonlinear mechanics/solve mechanics/vibration
   meshing
   results/store results/plot results/post
@@ -27,7 +27,8 @@ set(third_parties
   "sundials=lib/mechanics/nonlinear/kinsol.cpp" "nvector=lib/mechanics/nonlinear/kinsol.cpp"
   "httplib=lib/serve/http/http_module.cpp" "CLI/=stages/common/arguments.cpp" "nlopt=lib/identification/fit/"
   "muParser=lib/core/config/formula.cpp"
-  "boost/=lib/identification/sensitivity/sobol_sequence.cpp")
+  "boost/random=lib/identification/sensitivity/sobol_sequence.cpp"
+  "boost/geometry=lib/mechanics/mortar/facet_search.cpp")
 set(failed FALSE)
 
 # The room of a path below lib/ is the longest entry of the list above that it begins with.

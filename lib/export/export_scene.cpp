@@ -63,7 +63,7 @@ void check_contacts(const SolveConfig& config, const std::string& path) {
       refuse(path, "contacts." + name + ".control", "a force-controlled indenter",
              "one with a prescribed motion");
   for (const auto& [name, contact] : config.contacts)
-    if (!std::holds_alternative<Sphere>(contact.rigid))
+    if (!std::holds_alternative<Sphere>(contact.rigid.value()))
       refuse(
           path, "contacts." + name + ".rigid", "an indenter of another shape",
           "a sphere, or no indenter: closest to an ellipsoid is the sphere of its curvature, to a "

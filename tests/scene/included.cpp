@@ -120,12 +120,12 @@ TEST_CASE("Every key that chooses takes the choice beside the include") {
   const SolveConfig indenter =
       of("contacts: {tip: {rigid: {sphere: {radius: 1, centre: [0, 2, 0]}}" + motion + "}}\n",
          "contacts: {tip: {rigid: {plane: {point: [0, 1, 0], normal: [0, -1, 0]}}}}\n");
-  CHECK(std::holds_alternative<Plane>(indenter.contacts.at("tip").rigid));
+  CHECK(std::holds_alternative<Plane>(indenter.contacts.at("tip").rigid.value()));
   CHECK(std::get<Sphere>(
             of("contacts: {tip: {rigid: {sphere: {radius: 1, centre: [0, 2, 0]}}" + motion + "}}\n",
                "contacts: {tip: {rigid: {sphere: {radius: 3}}}}\n")
                 .contacts.at("tip")
-                .rigid)
+                .rigid.value())
             .radius == 3);
   CHECK(std::holds_alternative<KinsolOptions>(
       of("solver: {newton: {relative: 1e-9}}\n", "solver: {kinsol: {}}\n").solver));

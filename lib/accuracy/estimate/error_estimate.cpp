@@ -157,7 +157,7 @@ double between_points(double touching, bool section) {
 double sharpness(const SolveConfig& config) {
   double most = 1;
   for (const auto& [name, contact] : config.contacts)
-    most = std::max(most, edge_sharpness(contact.rigid));
+    most = std::max(most, edge_sharpness(contact.rigid.value()));
   return most;
 }
 
@@ -234,7 +234,7 @@ double order_of_force(const SolveConfig& config) {
   if (config.contacts.empty() && is_clamped(config)) return 1;
   int order = 2;
   for (const auto& [name, contact] : config.contacts)
-    order = std::min(order, force_order(contact.rigid));
+    order = std::min(order, force_order(contact.rigid.value()));
   return order;
 }
 

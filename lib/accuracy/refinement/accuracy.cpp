@@ -112,7 +112,7 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
       config.mesh->bodies.size() > 1 || !print || !lies_on_its_bottom(config))
     return false;
   const ContactConfig& contact = config.contacts.begin()->second;
-  if (!ball_of(contact.rigid) || contact.rotation) return false;
+  if (!ball_of(contact.rigid.value()) || contact.rotation) return false;
   const double a = std::max(print->half(0), print->half(1));
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
@@ -125,7 +125,7 @@ bool wants_other_than_hex27(const SolveConfig& config) {
 // are as near as hex8 for a tenth of the time and less (docs/work_precision.md).
 CellType first_cells(const SolveConfig& config, bool cut) {
   const auto is_plane = [](const auto& c) {
-    return is_flat(c.second.rigid) && !c.second.adhesion;
+    return is_flat(c.second.rigid.value()) && !c.second.adhesion;
   };
   // a body that is not held below bends, and hex8 are too stiff for that
   const bool bends =

@@ -76,7 +76,7 @@ bool is_isotropic(const SolveConfig& config, const std::optional<Material>& mate
 // an indenter of revolution about the axis, that moves along it
 bool is_round(const ContactConfig& contact, const Vec3& axis) {
   return !contact.control && !contact.rotation &&
-         is_revolved_about({axis, Vec3::UnitY()}, contact.rigid) &&
+         is_revolved_about({axis, Vec3::UnitY()}, contact.rigid.value()) &&
          std::all_of(contact.motion.begin(), contact.motion.end(),
                      [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
 }
@@ -97,7 +97,7 @@ void move_to_axis(SolveConfig& config, const Vec3& axis) {
           if constexpr (requires { shape.face; }) shift(shape.face, axis);
           if constexpr (requires { shape.point; }) shift(shape.point, axis);
         },
-        contact.rigid);
+        contact.rigid.value());
 }
 
 }  // namespace

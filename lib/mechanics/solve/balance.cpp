@@ -35,6 +35,8 @@ VecX Statics::free_residual() const {
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i)
       f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
+  if (!bodies_.empty())
+    bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), f);
   return on_free_rows(f);
 }
 
@@ -61,6 +63,12 @@ bool Statics::contact_law_holds(const VecX& u) const {
         d.cone > options_.law_tolerance)
       return false;
   }
+  if (bodies_.empty()) return true;
+  for (const ContactDefect& d : bodies_.defects(equilibrium_.mesh().X, u, now_.u, r_,
+                                                contacts_.size(), motion(now_.t)))
+    if (d.penetration > gap_tolerance_ || d.complementarity > options_.law_tolerance ||
+        d.cone > options_.law_tolerance)
+      return false;
   return true;
 }
 
@@ -159,6 +167,12 @@ void Statics::moved(const VecX& du, double step) {
     }
   }
   if (bordered()) move_border(step);
+  if (!bodies_.empty()) {
+    for (std::size_t k = contacts_.size(); k < r_.size(); ++k)
+      for (std::size_t i = 0; i < r_[k].size(); ++i)
+        r_[k][i] += step * (r_next_[k][i] - r_[k][i]);
+    bodies_.turn(X, u_, step * du, r_, contacts_.size());
+  }
   if (controlled_ >= 0) travel_ += step * travel_next_;
   if (starts_with_travel()) slip_from_touch(static_cast<std::size_t>(controlled_), expected_);
 }

@@ -208,6 +208,10 @@ std::optional<ContactChange> Statics::change_of_contact(const VecX& rhs, LinearS
   const Stopwatch watch(cost_.contact);
   const std::vector<Vec3> c = indenters(t_, travel_);
   const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
+  if (!bodies_.empty()) {
+    const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
+    return linearised_bodies(state, bodies_, now_.u, remaining_prescribed(u_), factor_, half.last);
+  }
   double force = 0;
   if (controlled_ >= 0) force = controlled()->control->force.at(t_);
   return linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
@@ -241,7 +245,7 @@ int Statics::level_of_increment(const BodyState& from, double t, double last_tra
 std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   LinearSolver& linear = factor_.linear();
   VecX move;
-  if (contacts_.empty()) {
+  if (contacts_.empty() && bodies_.empty()) {
     const Stopwatch watch(cost_.solve);
     move = solve_with_follower_loads(rhs);
     if (bordered()) solve_border(move);

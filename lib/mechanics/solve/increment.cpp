@@ -54,6 +54,8 @@ void Statics::begin(double t) {
     extrapolate(std::min((t - now_.t) / last, 2.0));
   if (controlled_ >= 0) move_to_touch();
   slip_from_touch();
+  if (!bodies_.empty())
+    bodies_.turn(equilibrium_.mesh().X, now_.u, u_ - now_.u, r_, contacts_.size());
   if (starts_with_travel()) expected_ = u_;
   const int level = level_of_increment(now_, t, now_.travel - before_.travel);
   if (level == factor_.level()) return;

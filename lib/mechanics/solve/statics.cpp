@@ -14,25 +14,30 @@ namespace langer {
 namespace {
 
 TangentFactor timed_factor(const Assembler& body, const std::vector<RigidContact>& contacts,
-                           const StaticsOptions& options, double& seconds) {
+                           const TouchingBodies& bodies, const StaticsOptions& options,
+                           double& seconds) {
   const Stopwatch watch(seconds);
+  if (!bodies.empty()) return {body, contacts, bodies.nodes(), options.threads};
   return {body, contacts, options.threads, options.contact_by, options.linear_by};
 }
 
 }  // namespace
 
 Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
-                 const StaticsOptions& options)
+                 const StaticsOptions& options, std::vector<SurfaceContact> surfaces)
     : equilibrium_(equilibrium),
       contacts_(std::move(contacts)),
+      bodies_(std::move(surfaces)),
       options_(options),
-      factor_(timed_factor(equilibrium_, contacts_, options_, cost_.analysis)),
+      factor_(timed_factor(equilibrium_, contacts_, bodies_, options_, cost_.analysis)),
       bonds_(contacts_) {
   scale_ = scale_of(equilibrium_);
   gap_tolerance_ = options_.gap_tolerance.value_or(1e-11 * scale_.length);
   now_.u = VecX::Zero(equilibrium_.dofs().n);
   for (const RigidContact& contact : contacts_)
     now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  for (const SurfaceContact& surface : bodies_.surfaces())
+    now_.r.emplace_back(surface.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].control) controlled_ = static_cast<int>(k);
   now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
@@ -108,6 +113,22 @@ std::vector<ContactDefect> Statics::defects() const {
   return out;
 }
 
+std::vector<ContactDefect> Statics::surface_defects() const {
+  if (bodies_.empty()) return {};
+  const bool accepted = now_.t == t_;
+  const double t0 = accepted ? before_.t : now_.t;
+  const VecX& u0 = accepted ? before_.u : now_.u;
+  return bodies_.defects(equilibrium_.mesh().X, u_, u0, r_, contacts_.size(), motion(t0));
+}
+
+const std::vector<std::vector<MortarNode>>& Statics::surface_averages() const {
+  return bodies_.at(equilibrium_.mesh().X, u_);
+}
+
+std::vector<double> Statics::surface_penetrations() const {
+  return bodies_.penetrations(equilibrium_.mesh().X, u_);
+}
+
 VecX Statics::reactions() const {
   VecX out = VecX::Zero(equilibrium_.dofs().n);
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
@@ -119,6 +140,8 @@ VecX Statics::reactions() const {
     for (std::size_t i = 0; i < r_[k].size(); ++i)
       out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   if (!bonds_.none()) bonds_.add_forces(out);
+  if (!bodies_.empty())
+    bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), out);
   return out;
 }
 

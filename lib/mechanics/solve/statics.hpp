@@ -29,6 +29,7 @@
 #include "mechanics/solve/bonds.hpp"
 #include "mechanics/solve/contact_linearisation.hpp"
 #include "mechanics/solve/tangent_factor.hpp"
+#include "mechanics/solve/touching_bodies.hpp"
 
 namespace langer {
 
@@ -68,7 +69,7 @@ struct StaticsOptions {
 class Statics {
  public:
   Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
-          const StaticsOptions& options);
+          const StaticsOptions& options, std::vector<SurfaceContact> surfaces = {});
 
   void begin(double t);  // starts an increment to t: predicts its trial state
   // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
@@ -113,6 +114,12 @@ class Statics {
   std::vector<ContactDefect> defects()
       const;  // of the trial state, or of the accepted one right after accept()
   const std::vector<RigidContact>& contacts() const { return contacts_; }
+  // Deformable surfaces that touch: their reactions follow those of the indenters in BodyState::r.
+  const std::vector<SurfaceContact>& surfaces() const { return bodies_.surfaces(); }
+  std::vector<ContactDefect> surface_defects() const;  // as defects()
+  const std::vector<std::vector<MortarNode>>& surface_averages() const;  // of the trial
+  // of each pair the deepest node of either side inside the facets of the other [mm]
+  std::vector<double> surface_penetrations() const;
   const RigidContact* controlled() const {
     if (controlled_ >= 0) return &contacts_[static_cast<std::size_t>(controlled_)];
     return nullptr;
@@ -213,6 +220,7 @@ class Statics {
 
   Assembler& equilibrium_;
   std::vector<RigidContact> contacts_;
+  mutable TouchingBodies bodies_;
   StaticsOptions options_;
   Cost cost_;
   TangentFactor factor_;

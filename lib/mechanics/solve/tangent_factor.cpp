@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "mechanics/assembly/separate_bodies.hpp"
 #include "mechanics/assembly/zero_energy_modes.hpp"
 #include "mechanics/mesh/quality.hpp"
 
@@ -107,6 +108,26 @@ void TangentFactor::take_level(const Assembler& body, int level) {
   list_last(body.dofs());
   linear_->eliminate_last(last_);
   kind_ = Kind::none;
+}
+
+TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts,
+                             const std::vector<int>& further, int threads)
+    : threads_(threads) {
+  const Dofs& dofs = body.dofs();
+  last_of_.assign(dofs.n, -1);
+  for (const RigidContact& contact : contacts) eliminate_last(dofs, contact.nodes);
+  eliminate_last(dofs, further);
+  linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
+  if (!last_.empty() && any_is_free(body.mesh(), dofs)) loose_ = node_stiffness(body);
+}
+
+void TangentFactor::eliminate_last(const Dofs& dofs, const std::vector<int>& nodes) {
+  for (int node : nodes)
+    for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
+      if (dofs.equation[dof] >= 0 && last_of_[dof] < 0) {
+        last_of_[dof] = static_cast<int>(last_.size());
+        last_.push_back(dofs.equation[dof]);
+      }
 }
 
 void TangentFactor::take_into_tangent(const Assembler& body,

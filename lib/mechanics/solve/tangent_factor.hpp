@@ -40,6 +40,9 @@ class TangentFactor {
   // LinearBy::iterative is asked for and does not serve.
   TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts, int threads,
                 ContactBy contact_by = ContactBy::by_cost, LinearBy linear_by = LinearBy::direct);
+  // with further nodes in contact, of deformable surfaces: contact is condensed
+  TangentFactor(const Assembler& body, const std::vector<RigidContact>& contacts,
+                const std::vector<int>& further, int threads);
 
   // Which candidates are eliminated last. Where that changes, the next thing is a factorization.
   const CandidateLevels& levels() const { return levels_; }
@@ -47,7 +50,7 @@ class TangentFactor {
   void take_level(const Assembler& body, int level);
   // whether candidates stand among the other rows
   bool leaves_out() const { return !last_.empty() && level_ < levels_.all(); }
-  bool may_leave_out() const { return !last_.empty() && loose_ == 0; }
+  bool may_leave_out() const { return !candidates_.empty() && !last_.empty() && loose_ == 0; }
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment();
@@ -102,6 +105,7 @@ class TangentFactor {
   void take_into_tangent(const Assembler& body, const std::vector<RigidContact>& contacts);
   bool factorize_supported(const Assembler& body);
   void list_last(const Dofs& dofs);
+  void eliminate_last(const Dofs& dofs, const std::vector<int>& nodes);
 
   std::vector<std::vector<int>> candidates_;  // nodes of each contact
   CandidateLevels levels_;

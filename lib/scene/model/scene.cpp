@@ -18,6 +18,7 @@
 #include "meshing/read_surface.hpp"
 #include "scene/model/hanging_constraints.hpp"
 #include "scene/model/scene_adhesion.hpp"
+#include "scene/model/scene_bodies.hpp"
 #include "scene/model/scene_loads.hpp"
 #include "scene/model/scene_section.hpp"
 
@@ -471,7 +472,7 @@ void add_contacts(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& con
 
 RigidContact indenter_of(const std::string& name, const ContactConfig& contact,
                          std::optional<double> seconds) {
-  RigidContact rigid{name, contact.rigid, contact.friction, {}, {}};
+  RigidContact rigid{name, contact.rigid.value(), contact.friction, {}, {}};
   for (const WaypointConfig& w : contact.motion)
     rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
   if (contact.control)
@@ -523,6 +524,8 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh,
   add_turned(scene, nodes, config, mesh);
   scene.loads = surface_loads(config, mesh, where, nodes.errors);
   add_contacts(scene, nodes, config, mesh, where);
+  if (!config.bodies.empty() || !config.touching.empty())
+    add_surfaces(scene, config, mesh, nodes.prescribed, where, nodes.errors);
   add_materials(scene, config, mesh, material, where, nodes.errors);
   if (mesh.section)
     for (Error& error : section_errors(config, mesh, scene, where))

@@ -14,6 +14,7 @@
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/mesh/directions.hpp"
 #include "mechanics/mesh/mesh.hpp"
+#include "mechanics/mortar/surface_contact.hpp"
 #include "scene/model/solve_config.hpp"
 
 namespace langer {
@@ -26,6 +27,7 @@ struct Scene {
   Dofs dofs;
   std::vector<SurfaceLoad> loads;      // empty: no code of loads runs
   std::vector<RigidContact> contacts;  // empty: no contact code runs
+  std::vector<SurfaceContact> surfaces = {};  // deformable surfaces that touch
   std::vector<TurnedSet> turned;       // their nodes are prescribed in dofs
   std::vector<double> stops;  // values of t where an indenter turns, or a history has a kink
 

@@ -86,7 +86,7 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     if (contact.rotation)
       refuse(key + ".rotation", "found an indenter that turns", "none",
              "nothing moves out of the plane of a section: a block is needed");
-    if (!has_symmetry_of(mesh.section->of, contact.rigid))
+    if (!has_symmetry_of(mesh.section->of, contact.rigid.value()))
       refuse(key + ".rigid", "found a shape or place without its symmetry", shape,
              "a block is needed for others");
     if (const auto& control = contact.control;

@@ -81,16 +81,21 @@ struct ControlConfig {
 
 struct ContactConfig {
   std::string on;
-  Indenter rigid;
+  std::optional<Indenter> rigid;
   double friction = 0;
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
   std::optional<HistoryConfig> rotation = {};
   std::optional<Adhesion> adhesion = {};
+  std::optional<std::string> against = {};
   static void fields(auto& v) {
     v(&ContactConfig::on, "on", unit::none,
-      "node set that may touch the indenter; none: nodes of the boundary that it can reach");
-    v(&ContactConfig::rigid, "rigid", unit::none, "shape and place of the indenter", required);
+      "node set that may touch the indenter; none: nodes of the boundary that it can reach. With `against`: the surface at whose "
+      "nodes the contact law holds, the finer or softer one of the two");
+    v(&ContactConfig::rigid, "rigid", unit::none,
+      "shape and place of the indenter; or `against` in its place");
+    v(&ContactConfig::against, "against", unit::none,
+      "the set of facets that `on` touches, in place of `rigid`: two deformable surfaces of hex8");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -105,7 +110,11 @@ struct ContactConfig {
     v(&ContactConfig::adhesion, "adhesion", unit::none,
       "bonds that hold what has touched the indenter, until they come loose");
   }
+  bool deformable() const { return against.has_value(); }
   std::vector<Complaint> complaints() const {
+    if (deformable()) return of_surfaces();
+    if (!rigid)
+      return {{"rigid", "missing", "a shape and place of the indenter, or `against: <set>`", ""}};
     std::vector<Complaint> found = of_rotation();
     if (control && adhesion)
       found.push_back({"control", "found together with adhesion", "one of the two",
@@ -132,9 +141,30 @@ struct ContactConfig {
   }
 
  private:
+  // two deformable surfaces
+  std::vector<Complaint> of_surfaces() const {
+    std::vector<Complaint> found;
+    const auto refuse = [&](bool given, const char* key, const char* hint) {
+      if (given)
+        found.push_back({key, "found together with against", "a rigid indenter, or none of it",
+                         hint});
+    };
+    refuse(rigid.has_value(), "rigid", "a contact has either a rigid shape or a second surface");
+    refuse(!motion.empty(), "motion", "`loads` and `supports` move the bodies");
+    refuse(control.has_value(), "control", "a load {force: ...} pushes a body");
+    refuse(rotation.has_value(), "rotation", "a load {rotation: ...} turns a set");
+    refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
+    if (on.empty())
+      found.push_back({"on", "missing", "the set that touches `against`", ""});
+    else if (on == *against)
+      found.push_back({"against", "found the set of `on`", "the set of another surface",
+                       "a surface that touches itself is not computed yet: name two parts of it that "
+                       "share no node"});
+    return found;
+  }
   std::vector<Complaint> of_rotation() const {
     if (!rotation) return {};
-    if (!axis_of(rigid))
+    if (!axis_of(*rigid))
       return {{"rotation", "found with a shape that has no axis of revolution",
                "a sphere, a plane, a cylinder, an ellipsoid with two equal half axes",
                "another shape is another one once it has turned"}};
@@ -180,6 +210,46 @@ struct BodyConfig {
       "angle of each fibre family; none: those of the bodies not named", between(-360, 360));
     v(&BodyConfig::fibre_field, "fibre_field", unit::none,
       "directions that vary from cell to cell");
+  }
+};
+
+// One of several bodies: its mesh, and what belongs to it alone. Names of its sets, points and layers
+// begin with its own: <body>_<set>.
+struct SceneBodyConfig {
+  MeshConfig mesh;
+  std::optional<Material> material;
+  std::vector<double> fibre_angles;
+  std::optional<FibreField> fibre_field;
+  std::vector<SupportConfig> supports;
+  std::vector<LoadConfig> loads;
+  static void fields(auto& v) {
+    v(&SceneBodyConfig::mesh, "mesh", unit::none, "its mesh", required);
+    v(&SceneBodyConfig::material, "material", unit::none,
+      "its material; none: that of the scene. Of a mesh with layers: `materials` by <body>_<layer>");
+    v(&SceneBodyConfig::fibre_angles, "fibre_angles", unit::deg,
+      "angle of each fibre family, instead of the material's own", between(-360, 360));
+    v(&SceneBodyConfig::fibre_field, "fibre_field", unit::none,
+      "directions that vary from cell to cell");
+    v(&SceneBodyConfig::supports, "supports", unit::none, "sets of this mesh that are held");
+    v(&SceneBodyConfig::loads, "loads", unit::none, "loads on sets of this mesh");
+  }
+  std::vector<Complaint> complaints() const {
+    std::vector<Complaint> found;
+    if (mesh.cells != CellType::hex8)
+      found.push_back({"mesh.cells", "found other cells than hex8 in one of several bodies",
+                       "cells: hex8", "contact of two deformable surfaces knows hex8 only"});
+    if (is_section(mesh.geometry))
+      found.push_back({"mesh.geometry", "found a section", "a body with all of its sides",
+                       "sections are of one body"});
+    if (!mesh.cuts.empty())
+      found.push_back({"mesh.cuts", "found in one of several bodies", "none", ""});
+    if (!mesh.exports.empty())
+      found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
+    const bool own = material || !fibre_angles.empty() || fibre_field;
+    if (own && !mesh.bodies.empty())
+      found.push_back({"material", "found with a mesh of several layers",
+                       "`materials` of the scene, by <body>_<layer>", ""});
+    return found;
   }
 };
 
@@ -261,10 +331,14 @@ struct SolveConfig {
   std::vector<double> fibre_angles;
   std::optional<FibreField> fibre_field;
   std::map<std::string, BodyConfig> materials;
+  std::map<std::string, SceneBodyConfig> bodies;
   std::optional<Formulation> formulation;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
   std::map<std::string, ContactConfig> contacts;
+  // Set by expanded() (scene/model/scene_bodies.hpp), not by the config: contacts of deformable
+  // surfaces, which then are no longer among `contacts`.
+  std::map<std::string, ContactConfig> touching = {};
   LoadPathOptions path;
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::automatic;
@@ -310,12 +384,15 @@ struct SolveConfig {
       "fibre directions that vary from cell to cell: those of the first family; further ones keep their angle to it");
     v(&SolveConfig::materials, "materials", unit::none,
       "bodies of the mesh by name, each with its own material and fibres; the keys above stand for those not named");
+    v(&SolveConfig::bodies, "bodies", unit::none,
+      "several bodies by name, each with its own mesh, in place of `mesh`; their sets are called <body>_<set>, such as skin_top");
     v(&SolveConfig::formulation, "formulation", unit::none,
       "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27 and tet15");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
     v(&SolveConfig::loads, "loads", unit::none,
       "imposed displacements, forces, tractions and pressures");
-    v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
+    v(&SolveConfig::contacts, "contacts", unit::none,
+      "rigid indenters, and pairs of deformable surfaces, by name");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
     v(&SolveConfig::stability, "stability", unit::none,
@@ -368,6 +445,7 @@ struct SolveConfig {
                          "a body without it has no first step"});
     };
     needs_stiffness(material, "material.matrix");
+    complain_of_bodies(found);
     for (const auto& [name, body] : materials)
       needs_stiffness(body.material, "materials." + name + ".material.matrix");
     if (loads.empty() && contacts.empty() && !modes && !(harmonic && harmonic->face))
@@ -441,6 +519,52 @@ struct SolveConfig {
   }
 
  private:
+  // What contact of deformable surfaces, or a scene of several bodies, does not go together with.
+  void complain_of_bodies(std::vector<Complaint>& found) const {
+    for (const auto& [name, body] : bodies)
+      if (body.material && at_rest(*body.material) == AtRest::without_stiffness)
+        found.push_back({"bodies." + name + ".material.matrix", at_rest_in_words(*body.material),
+                         stiffness_at_rest_cure(*body.material),
+                         "a body without it has no first step"});
+    if (mesh && !bodies.empty())
+      found.push_back({"bodies", "found together with mesh", "one of the two",
+                       "`mesh: null` takes an included mesh away"});
+    std::string cause = "several bodies";
+    bool several = !bodies.empty();
+    for (const auto& [name, contact] : contacts)
+      if (contact.deformable()) {
+        cause = "contact of deformable surfaces";
+        several = true;
+      }
+    if (!several) return;
+    const auto refuse = [&](bool given, const std::string& key, const char* expected) {
+      if (given) found.push_back({key, "found together with " + cause, expected, ""});
+    };
+    if (mesh && mesh->cells != CellType::hex8)
+      found.push_back({"mesh.cells", "found other cells than hex8 with " + cause, "cells: hex8",
+                       "mortar contact of hex27 and tet15 is not there yet"});
+    refuse(mesh && is_section(mesh->geometry), "mesh.geometry", "a body with all of its sides");
+    refuse(mesh && !mesh->cuts.empty(), "mesh.cuts", "a mesh without cuts");
+    refuse(accuracy.has_value(), "accuracy", "a scene without it: errors are not estimated there");
+    refuse(fidelity.has_value(), "fidelity", "a scene without it: errors are not estimated there");
+    refuse(estimate && *estimate != EstimateBy::none, "estimate", "none");
+    refuse(symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none, "symmetry",
+           "none: model a half or a quarter and hold the planes by supports");
+    refuse(reduce == Reduce::automatic, "reduce", "none");
+    refuse(!sensitivity.empty(), "sensitivity", "none: derivatives do not go through it yet");
+    refuse(uncertainty && *uncertainty != UncertaintyBy::none, "uncertainty", "none");
+    refuse(!truncation.empty(), "truncation", "none");
+    refuse(stability == StabilityCheck::each_step || stability == StabilityCheck::last, "stability",
+           "auto or off: signs of the tangent are not counted there");
+    refuse(on_unstable == OnUnstable::stop, "on_unstable", "warn");
+    refuse(std::holds_alternative<KinsolOptions>(solver), "solver.kinsol", "newton");
+    if (const auto* newton = std::get_if<NewtonOptions>(&solver))
+      refuse(newton->linear == LinearBy::iterative, "solver.newton.linear", "direct");
+    for (const auto& [name, contact] : contacts) {
+      refuse(contact.adhesion.has_value(), "contacts." + name + ".adhesion", "none");
+      refuse(contact.control.has_value(), "contacts." + name + ".control", "motion");
+    }
+  }
   // The key that requests an accuracy; empty if none does.
   std::string key_of_accuracy() const {
     if (accuracy) return "accuracy";

@@ -5,6 +5,7 @@
 #include "mechanics/mesh/quality.hpp"
 #include "results/store/mesh_file.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/model/scene_bodies.hpp"
 
 namespace langer {
 
@@ -49,6 +50,7 @@ Mesh described(const SolveConfig& config, const std::function<Place(const std::s
 
 Mesh body_mesh(const SolveConfig& config, const std::string& file,
                const std::function<Place(const std::string&)>& where) {
+  if (file.empty() && !config.bodies.empty()) return mesh_of_bodies(config, where);
   Mesh mesh = file.empty() ? described(config, where) : read_mesh(file).mesh;
   refuse_bad(mesh, file);
   return mesh;

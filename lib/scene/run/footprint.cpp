@@ -90,14 +90,14 @@ std::vector<Footprint> footprints(const SolveConfig& config, const Box& body) {
                 body.origin[1] + body.size[1]};
   std::vector<Footprint> out;
   for (const auto& [name, contact] : config.contacts) {
-    if (is_from_file(contact.rigid)) continue;
+    if (is_from_file(contact.rigid.value())) continue;
     std::optional<Footprint> found;
     Vec3 before = Vec3::Zero();
     for (const WaypointConfig& waypoint : contact.motion) {
       const Vec3 to = vec(waypoint.to);
       for (int i = 1; i <= places; ++i)
         if (const auto print =
-                print_of(contact.rigid, before + (to - before) * (1.0 * i / places), top))
+                print_of(contact.rigid.value(), before + (to - before) * (1.0 * i / places), top))
           add(found, *print);
       before = to;
     }

@@ -22,7 +22,7 @@ double cell_length(const Geometry& geometry) {
 double beside_holes(const SolveConfig& config) {
   std::optional<RoundHole> hole;
   for (const auto& [name, contact] : config.contacts)
-    if (!hole) hole = hole_of(contact.rigid);
+    if (!hole) hole = hole_of(contact.rigid.value());
   if (!hole) return 0;
   const double radius = hole->radius;
   const auto size = box(config.mesh->geometry).size;
@@ -42,7 +42,7 @@ double beside_holes(const SolveConfig& config) {
 double under_holes(const SolveConfig& config) {
   double least = 0;
   for (const auto& [name, contact] : config.contacts)
-    if (const auto hole = hole_of(contact.rigid))
+    if (const auto hole = hole_of(contact.rigid.value()))
       least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / hole->radius);
   return std::min(0.5, least);
 }
@@ -75,12 +75,12 @@ std::string over_an_edge(const SolveConfig& config, const std::string& quantity)
   const auto point = config.mesh->points.find(quantity.substr(begins.size()));
   if (point == config.mesh->points.end()) return "";
   for (const auto& [name, contact] : config.contacts) {
-    const auto hole = hole_of(contact.rigid);
+    const auto hole = hole_of(contact.rigid.value());
     if (!hole) continue;
     const Vec3 at = vec(point->second);
     const double rho = about(hole->axis, at).rho;
     if (rho >= hole->radius * (1 - 1e-9) && rho <= hole->radius + 2 * hole->edge &&
-        shape_at(contact.rigid, at).gap <= hole->edge)
+        shape_at(contact.rigid.value(), at).gap <= hole->edge)
       return fmt::format(
           "the error of {} is not known: the point lies at the edge of the hole of \"{}\", and what slips over it follows no law of the "
           "cells' length",

@@ -174,6 +174,7 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
         read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
             .config;
     for (const auto& [name, contact] : solve.contacts) {
+      if (contact.deformable()) continue;
       if (!header.contact_nodes.count(name)) return {};
       RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
       indenter.nodes = header.contact_nodes.at(name);

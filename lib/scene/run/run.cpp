@@ -39,7 +39,7 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
       body(
           reduction.assembler(by_ranks ? divided(reduction, config, serial_reason) : std::nullopt)),
-      statics(body, reduction.scene().contacts, threads_of(config)),
+      statics(body, reduction.scene().contacts, threads_of(config), reduction.scene().surfaces),
       path(config.path),
       solver(reduction.solver(config.solver)) {}
 
@@ -49,7 +49,8 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
       body(reduction.assembler()),
-      statics(body, reduction.scene().contacts, with_seconds(options, path_)),
+      statics(body, reduction.scene().contacts, with_seconds(options, path_),
+              reduction.scene().surfaces),
       path(path_),
       solver(std::move(solver_)) {}
 

@@ -6,6 +6,7 @@
 #include "core/tensor/stress.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "results/store/material_file.hpp"
+#include "scene/run/surface_records.hpp"
 #include "scene/model/bond_records.hpp"
 #include "scene/model/solve_config_io.hpp"
 
@@ -44,6 +45,8 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
     if (const Triangles* triangles = triangles_of(contact.shape))
       header.indenter_surfaces[contact.name] = *triangles;
   }
+  for (const SurfaceContact& surface : scene.surfaces)
+    header.contact_nodes[surface.name] = surface.nodes;
   header.identity = identity;
   return header;
 }
@@ -148,6 +151,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
     record.scalars[of_volume("load_pressure", body.loads(), i)] = state.pressures[i];
     record.scalars[of_volume("pumped_volume", body.loads(), i)] = body.swept_volume(i, state.u);
   }
+  if (!statics.surfaces().empty()) record_surfaces(statics, record);
   const auto& contacts = statics.contacts();
   if (contacts.empty()) return record;
   const auto defects = statics.defects();
@@ -161,7 +165,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
                                       {"cone", d.cone},
                                       {"complementarity", d.complementarity}})
       record.scalars[name] = std::max(record.scalars[name], value);
-    if (contacts.size() > 1)
+    if (contacts.size() > 1 || !statics.surfaces().empty())
       for (int j = 0; j < 3; ++j)
         record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
@@ -184,6 +188,8 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
     state.r.push_back(record.contacts.at(contact.name).r);
     if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);
   }
+  for (const SurfaceContact& surface : scene.surfaces)
+    state.r.push_back(record.contacts.at(surface.name).r);
   take_bonds(record, scene.contacts, state);
   return state;
 }

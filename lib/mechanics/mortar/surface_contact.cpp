@@ -1,0 +1,204 @@
+#include "mechanics/mortar/surface_contact.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "mechanics/mesh/facets.hpp"
+#include "mechanics/mortar/mortar_facet.hpp"
+
+namespace langer {
+
+namespace {
+
+QuadNodes corners(const Mesh& mesh, const Facet& facet) {
+  const std::vector<int> nodes = facet_nodes(mesh, facet);
+  return {nodes[0], nodes[1], nodes[2], nodes[3]};
+}
+
+// what a state of the scene below the rounding of its positions is
+double rounding(const VecX& x) {
+  return 8 * std::numeric_limits<double>::epsilon() * x.lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& mesh,
+                               const std::vector<Facet>& own, const std::vector<Facet>& other) {
+  SurfaceContact contact;
+  contact.name = name;
+  contact.mu = mu;
+  for (const Facet& facet : own) contact.own.push_back(corners(mesh, facet));
+  for (const Facet& facet : other) contact.other.push_back(corners(mesh, facet));
+  std::set<int> nodes;
+  std::set<int> all;
+  double longest = 0;
+  for (const auto* side : {&contact.own, &contact.other})
+    for (const QuadNodes& facet : *side)
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto next = static_cast<std::size_t>(facet[(k + 1) % 4]);
+        const auto here = static_cast<std::size_t>(facet[k]);
+        longest = std::max(longest, (mesh.X[next] - mesh.X[here]).norm());
+        all.insert(facet[k]);
+        if (side == &contact.own) nodes.insert(facet[k]);
+      }
+  contact.nodes.assign(nodes.begin(), nodes.end());
+  contact.all_nodes.assign(all.begin(), all.end());
+  contact.reach = 3 * longest;
+  return contact;
+}
+
+Vec3 MortarNode::average(const VecX& u) const {
+  Vec3 sum = Vec3::Zero();
+  for (const auto* side : {&own, &other})
+    for (const Weight& w : *side) sum += w.of * position(u, w.node);
+  return sum;
+}
+
+std::vector<Vec3> mortar_normals(const SurfaceContact& contact, const VecX& x) {
+  std::map<int, Vec3> sum;
+  for (const QuadNodes& f : contact.own) {
+    const Vec3 a = position(x, f[2]) - position(x, f[0]);
+    const Vec3 b = position(x, f[3]) - position(x, f[1]);
+    const Vec3 inward = -0.5 * a.cross(b);
+    for (int node : f) sum.try_emplace(node, Vec3::Zero()).first->second += inward;
+  }
+  std::vector<Vec3> normals;
+  for (int node : contact.nodes) normals.push_back(sum.at(node).normalized());
+  return normals;
+}
+
+std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact, const VecX& x) {
+  return mortar_nodes(contact, mortar_facets(contact, x, false), x);
+}
+
+std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact,
+                                     const std::vector<MortarFacet>& facets, const VecX& x) {
+  struct Sums {
+    double area = 0;
+    std::map<int, double> own, other;
+  };
+  std::map<int, Sums> by_node;
+  for (const MortarFacet& facet : facets) {
+    const QuadNodes& own = contact.own[static_cast<std::size_t>(facet.own)];
+    const Mat4 S = facet.A * facet.M;
+    for (int i = 0; i < 4; ++i) {
+      Sums& sums = by_node[own[static_cast<std::size_t>(i)]];
+      sums.area += facet.D[i];
+      for (int j = 0; j < 4; ++j) sums.own[own[static_cast<std::size_t>(j)]] += S(i, j);
+      for (const FacetOverlap& o : facet.overlaps) {
+        const QuadNodes& other = contact.other[static_cast<std::size_t>(o.other)];
+        const Vec4 row = facet.A.row(i) * o.K;
+        for (int k = 0; k < 4; ++k) sums.other[other[static_cast<std::size_t>(k)]] -= row[k];
+      }
+    }
+  }
+  const std::vector<Vec3> normals = mortar_normals(contact, x);
+  std::vector<MortarNode> nodes;
+  for (const auto& [node, sums] : by_node) {
+    if (!(sums.area > 0)) continue;
+    MortarNode out;
+    const auto found = std::lower_bound(contact.nodes.begin(), contact.nodes.end(), node);
+    out.candidate = static_cast<int>(found - contact.nodes.begin());
+    out.area = sums.area;
+    out.normal = normals[static_cast<std::size_t>(out.candidate)];
+    for (const auto& [j, w] : sums.own) out.own.push_back({j, w / sums.area});
+    for (const auto& [k, w] : sums.other) out.other.push_back({k, w / sums.area});
+    // differences of positions, not sums of products with coordinates far from the origin
+    const Vec3 middle = position(x, node);
+    for (const auto* side : {&out.own, &out.other})
+      for (const Weight& w : *side) out.jump += w.of * (position(x, w.node) - middle);
+    nodes.push_back(std::move(out));
+  }
+  return nodes;
+}
+
+// Forces on the other side: w_k r - q_k a x (x_k - x_mean), with a such that the moment of all is
+// zero: J a = jump x r, J the inertia of the masses q_k = |w_k|.
+std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
+  std::vector<NodalForce> forces;
+  for (const Weight& w : node.own) forces.push_back({w.node, w.of * Mat3::Identity()});
+  double mass = 0;
+  Vec3 mean = Vec3::Zero();
+  for (const Weight& w : node.other) {
+    mass += std::abs(w.of);
+    mean += std::abs(w.of) * position(x, w.node);
+  }
+  mean /= mass;
+  Mat3 inertia = Mat3::Zero();
+  for (const Weight& w : node.other) {
+    const Vec3 arm = position(x, w.node) - mean;
+    inertia += std::abs(w.of) * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  }
+  const auto product = [](const Vec3& a) {
+    Mat3 P;
+    P << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+    return P;
+  };
+  const Mat3 turn = inertia.inverse() * product(node.jump);
+  for (const Weight& w : node.other) {
+    const Mat3 couple = std::abs(w.of) * product(position(x, w.node) - mean) * turn;
+    forces.push_back({w.node, w.of * Mat3::Identity() + couple});
+  }
+  return forces;
+}
+
+void add_mortar_forces(const std::vector<MortarNode>& nodes, const VecX& x,
+                       const std::vector<Vec3>& reactions, VecX& f) {
+  for (const MortarNode& node : nodes) {
+    const Vec3& r = reactions[static_cast<std::size_t>(node.candidate)];
+    if (r.isZero(0)) continue;
+    for (const NodalForce& force : force_operator(node, x))
+      f.segment<3>(3 * static_cast<Eigen::Index>(force.node)) += force.per_reaction * r;
+  }
+}
+
+ContactDefect mortar_defect(const SurfaceContact& contact, const std::vector<MortarNode>& nodes,
+                            const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions,
+                            double motion) {
+  ContactDefect defect;
+  defect.status.assign(contact.nodes.size(), ContactStatus::open);
+  defect.gap.assign(contact.nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  const VecX moved = x - x0;
+  double largest = 0;
+  for (const Vec3& r : reactions) largest = std::max(largest, r.norm());
+  for (const MortarNode& node : nodes) motion = std::max(motion, node.average(moved).norm());
+  const double tiny = std::numeric_limits<double>::min();
+  for (const MortarNode& node : nodes) {
+    const auto i = static_cast<std::size_t>(node.candidate);
+    const Vec3& r = reactions[i];
+    const double g = node.gap();
+    defect.gap[i] = g;
+    const bool closed = !r.isZero(0);
+    const double violation = closed ? std::abs(g) : -g;
+    defect.penetration = std::max(defect.penetration, violation);
+    if (!closed) continue;
+    const Vec3& n = node.normal;
+    const Vec3 v = node.average(moved);
+    const Vec3 slip = v - v.dot(n) * n;
+    const double r_n = r.dot(n);
+    const double r_t = (r - r_n * n).norm();
+    double seen = 0;
+    if (std::abs(g) > rounding(x)) seen = g;
+    defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
+    double power = r_n * seen;
+    if (contact.mu > 0) power = r.dot(slip) + r_n * (seen + contact.mu * slip.norm());
+    defect.complementarity =
+        std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
+    const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
+    defect.status[i] = sticks ? ContactStatus::stick : ContactStatus::slip;
+    defect.force += r;
+  }
+  for (ContactStatus status : defect.status) {
+    if (status == ContactStatus::open) ++defect.open;
+    if (status == ContactStatus::stick) ++defect.stick;
+    if (status == ContactStatus::slip) ++defect.slip;
+  }
+  return defect;
+}
+
+}  // namespace langer

@@ -1,0 +1,40 @@
+#include "scene/run/surface_records.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace langer {
+
+void record_surfaces(const Statics& statics, StepRecord& record) {
+  const auto defects = statics.surface_defects();
+  const std::size_t first = statics.contacts().size();
+  for (std::size_t s = 0; s < defects.size(); ++s) {
+    const ContactDefect& defect = defects[s];
+    const std::string& name = statics.surfaces()[s].name;
+    ContactRecord& contact = record.contacts[name];
+    contact.r = statics.accepted().r[first + s];
+    contact.gap = defect.gap;
+    for (ContactStatus status : defect.status) contact.status.push_back(static_cast<int>(status));
+    for (const auto& [measure, value] : {std::pair{"penetration", defect.penetration},
+                                         {"cone", defect.cone},
+                                         {"complementarity", defect.complementarity}})
+      record.scalars[measure] = std::max(record.scalars[measure], value);
+    for (int j = 0; j < 3; ++j)
+      record.scalars["force_" + name + "_" + "xyz"[j]] = -defect.force[j];
+    record.force_ind -= defect.force;
+    record.scalars["force_" + name] = defect.force.norm();
+    double area = 0;
+    double pressure = 0;
+    for (const MortarNode& node : statics.surface_averages()[s]) {
+      const Vec3& r = contact.r[static_cast<std::size_t>(node.candidate)];
+      if (r.isZero(0)) continue;
+      area += node.area;
+      pressure = std::max(pressure, r.dot(node.normal) / node.area);
+    }
+    record.scalars["contact_area_" + name] = area;
+    record.scalars["pressure_max_" + name] = pressure;
+    record.scalars["penetration_" + name] = statics.surface_penetrations()[s];
+  }
+}
+
+}  // namespace langer
