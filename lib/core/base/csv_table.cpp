@@ -24,6 +24,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
+// The cells of a line whose columns are separated by blanks, as many as there may be.
 std::vector<CsvCell> words_of(const std::string& line) {
   std::vector<CsvCell> row;
   for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string::npos;) {
@@ -56,6 +57,8 @@ struct Digits {
   bool both = false;       // 1.234,5 or several commas: no number, but meant as one
 };
 
+// Decides what signs a number has, not which of them is the decimal sign: that is decided for the
+// whole file. Exponents are allowed, and one sign in front.
 Digits digits_of(const std::string& text) {
   Digits d;
   const auto is_digit = [](char c) {
@@ -97,6 +100,7 @@ const std::set<std::string>& spreadsheet_errors() {
   return known;
 }
 
+// A line that begins with #, unless # begins an error of a spreadsheet.
 bool is_comment(const std::string& line) {
   const std::size_t first = line.find_first_not_of(blanks);
   if (line[first] != '#') {
@@ -126,6 +130,8 @@ void refuse_workbook(const std::string& text, const std::string& name) {
                               "libreoffice --headless --convert-to csv FILE"});
 }
 
+// Lines with content. A mark of the byte order and the \r of Windows are removed; lines that
+// contain separators only do not count.
 std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) {
   refuse_workbook(text, name);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
@@ -169,6 +175,7 @@ bool all_numbers(const CsvRow& row) {
                      [](const CsvCell& c) { return digits_of(c.text).number; });
 }
 
+// Spreadsheets write "sep=;" into the first line.
 std::optional<char> declared_separator(const std::vector<CsvLine>& lines) {
   if (lines.empty() || lines[0].text.size() != 5) return std::nullopt;
   std::string word = lines[0].text.substr(0, 4);
@@ -178,6 +185,7 @@ std::optional<char> declared_separator(const std::vector<CsvLine>& lines) {
   return std::nullopt;
 }
 
+// The line of column names, the separator that splits it, and where the rows begin.
 struct HeaderPosition {
   CsvRow header;
   std::size_t next = 0;  // the line after it
@@ -238,6 +246,7 @@ HeaderPosition first_header(const std::vector<CsvLine>& lines, const std::string
                  "numpy.savetxt writes one with header=\"strain,nominal_stress_MPa\""});
 }
 
+// Exports often end their lines with separators: the empty cells behind the last column.
 void drop_empty_end(std::vector<CsvCell>& cells, std::size_t down_to) {
   while (cells.size() > down_to && cells.back().text.empty()) cells.pop_back();
 }
@@ -303,6 +312,7 @@ DecimalSign decimal_sign(const CsvTable& table) {
   return DecimalSign::comma;
 }
 
+// Twice as many cells as names: each number was split at its decimal comma.
 std::string hint_for_cells(const CsvTable& table, std::size_t found, char separator) {
   if (separator == ',' && table.header.cells.size() > 1 && found == 2 * table.header.cells.size())
     return "decimal commas need another separator of columns: semicolons or tabs, or quoted cells";
@@ -311,6 +321,8 @@ std::string hint_for_cells(const CsvTable& table, std::size_t found, char separa
 
 }  // namespace
 
+// Quotes protect separators and decimal commas; a doubled quote is one quote. Columns are counted
+// in bytes from 1, so that a message can name the place.
 std::vector<CsvCell> csv_cells(const std::string& line, char separator) {
   if (separator == ' ') return words_of(line);
   std::vector<CsvCell> row;
@@ -332,6 +344,7 @@ std::vector<CsvCell> csv_cells(const std::string& line, char separator) {
   }
 }
 
+// A number with a decimal point that fills the whole text; independent of the locale.
 std::optional<double> csv_number(const std::string& text) {
   double x = 0;
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
@@ -349,6 +362,7 @@ std::optional<double> CsvTable::number(const CsvCell& cell) const {
   return csv_number(text);
 }
 
+// Cells without a value, as statistics programs and spreadsheets write them.
 bool is_blank_cell(const std::string& text) {
   static const std::set<std::string> known{"",    "NaN", "nan", "NAN",  "NA",
                                            "N/A", "n/a", "na",  "null", "NULL"};

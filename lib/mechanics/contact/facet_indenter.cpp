@@ -45,6 +45,7 @@ OnTriangle nearest_on(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x
   return {a + vb / sum * ab + vc / sum * ac, 0, {}};
 }
 
+// 0 inside the box [mm2].
 double squared_distance_to_box(const Vec3& low, const Vec3& high, const Vec3& x) {
   return (low - x).cwiseMax(x - high).cwiseMax(0).squaredNorm();
 }
@@ -57,6 +58,8 @@ TriangleTree::TriangleTree(Triangles triangles)
   build(0, static_cast<int>(order_.size()));
 }
 
+// Boxes in boxes: the triangles are halved along the longest side of their box until few are left.
+// Ties are broken by number, so that the tree is the same on every machine.
 int TriangleTree::build(int first, int last) {
   Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
           Vec3::Constant(-std::numeric_limits<double>::infinity()), first, last};
@@ -85,6 +88,7 @@ int TriangleTree::build(int first, int last) {
   return index;
 }
 
+// Visits the nearer box first, and leaves out boxes that are farther away than the best triangle.
 TriangleTree::Nearest TriangleTree::nearest(const Vec3& x) const {
   double best = std::numeric_limits<double>::infinity();
   Nearest out{};
@@ -132,6 +136,8 @@ void Facets::set_triangles(Triangles in_place) {
   tree = std::make_shared<TriangleTree>(std::move(in_place));
 }
 
+// The gap to the rounded surface. Inside a closed surface it is negative; the sign follows from the
+// normal of the nearest triangle, edge or corner.
 ShapePoint Facets::at(const Vec3& x) const {
   const TriangleTree::Nearest near = tree->nearest(x);
   const Vec3 away = near.sign * (x - near.point);
@@ -149,6 +155,8 @@ ShapePoint Facets::at(const Vec3& x) const {
   return p;
 }
 
+// Half of the second largest extent along the axes [mm]; the nearest point seen from far away is
+// the farthest one in that direction.
 double Facets::half_width() const {
   std::array<double, 3> width;
   for (int k = 0; k < 3; ++k) {  // what is nearest from far away is the farthest in that direction
@@ -161,6 +169,7 @@ double Facets::half_width() const {
 
 namespace {
 
+// Normal to the triangle; its length is twice the area.
 Vec3 twice_the_area(const Triangles& t, const std::array<int, 3>& c) {
   return (t.points[c[1]] - t.points[c[0]]).cross(t.points[c[2]] - t.points[c[0]]);
 }

@@ -56,6 +56,8 @@ double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
+// Collects the facets of the boundary, or the edges in z = 0 of a section, and how far the nodes
+// are apart at each node.
 SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size(), 0) {
   int front = mesh.n_nodes();
   if (mesh.section) front = n_front(mesh);
@@ -84,6 +86,7 @@ SurfaceCheck::SurfaceCheck(const Mesh& mesh) : mesh_(mesh), spacing_(mesh.X.size
   nodes_.assign(nodes.begin(), nodes.end());
 }
 
+// Half the longest diagonal: how far a point of the facet can be from its middle [mm].
 double SurfaceCheck::half_diagonal(const Patch& patch) const {
   double longest = 0;
   for (const auto& q : quads_[static_cast<std::size_t>(&patch - patches_.data())])
@@ -194,6 +197,8 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
   return {best, X};
 }
 
+// The nodes near the way of the indenter: it is followed in steps of half the smallest distance of
+// nodes, and the surface may come towards it by `moves`.
 std::vector<int> SurfaceCheck::reached(const RigidContact& contact, double moves) const {
   double shortest = std::numeric_limits<double>::infinity();
   double step = 0;
@@ -243,6 +248,8 @@ bool SurfaceCheck::inside_body(const Vec3& p, const std::vector<Vec3>& x) const 
   return std::abs(angle) > half_of_all;
 }
 
+// How far the surface is pressed in a direction: the largest displacement of its nodes minus the
+// smallest one [mm].
 double SurfaceCheck::pressed_along(Vec3 along, const std::vector<Vec3>& u) const {
   if (mesh_.section) {  // components that vanish by the symmetry of the section
     along[2] = 0;

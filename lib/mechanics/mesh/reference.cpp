@@ -133,6 +133,7 @@ struct Barycentric {
   }
 };
 
+// Whether an edge is one of the facet: both of its corners are.
 bool on_edge(const int* facet, const int* edge) {
   int n = 0;
   for (int k = 0; k < 3; ++k) n += facet[k] == edge[0] || facet[k] == edge[1];
@@ -257,6 +258,7 @@ std::vector<int> in_order(int n, std::initializer_list<int> further = {}) {
   return nodes;
 }
 
+// One row for each type of element, in the order of CellType.
 std::vector<ReferenceCell> rows() {
   const std::vector<int> sides{4, 5, 2, 1, 3, 0};
   const InAbaqus hex8{"C3D8", {{"C3D8", in_order(8)}}, sides};
@@ -287,6 +289,7 @@ std::vector<ReferenceCell> rows() {
 
 }  // namespace
 
+// Shape functions of the 15 nodes at a point.
 Tet15::Shape Tet15::shape(const Vec3& xi) {
   const Barycentric b(xi);
   const double* L = b.L;
@@ -312,6 +315,7 @@ Tet15::Gradient Tet15::gradient(const Vec3& xi) {
   return dN;
 }
 
+// Shape functions of the 27 nodes at a point, products of three polynomials.
 Hex27::Shape Hex27::shape(const Vec3& xi) {
   Shape N;
   for (int a = 0; a < 27; ++a)
