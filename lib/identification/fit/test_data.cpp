@@ -43,6 +43,7 @@ struct Reading {
   std::vector<Error> errors;
   std::vector<std::string> notes;
 
+  // Adds an error; ten of them are enough to see what is wrong with a file.
   void say(int line, int column, std::string key, std::string found, std::string expected,
            std::string hint = "") {
     if (errors.size() < 10)
@@ -52,11 +53,13 @@ struct Reading {
                         std::move(expected),
                         std::move(hint)});
   }
+  // The same at the heading of a column.
   void report_column(std::size_t column, std::string key, std::string found, std::string expected,
                      std::string hint = "") {
     say(table.header.line, table.header.cells[column].column, std::move(key), std::move(found),
         std::move(expected), std::move(hint));
   }
+  // What was decided without a key, for the log: a reader of the config should know of it.
   void note(std::size_t column, const std::string& text) {
     notes.push_back(fmt::format("{}:{}:{}: {}", table.name, table.header.line,
                                 table.header.cells[column].column, text));
@@ -96,6 +99,7 @@ struct Reading {
     return found;
   }
 
+  // "column 3" as a place, counted from 1.
   std::optional<std::size_t> column_at(const std::string& wanted) const {
     const std::string word = "column ";
     if (!wanted.starts_with(word)) return std::nullopt;
@@ -322,6 +326,8 @@ struct Reading {
     return StrainMeasure::engineering;
   }
 
+  // A number of a cell. What is none becomes an error with a hint of the likely cause: the decimal
+  // sign, or a cell without a value between two points.
   double number(const CsvRow& row, std::size_t column) {
     const CsvCell& cell = row.cells[column];
     const auto x = table.number(cell);
@@ -361,6 +367,8 @@ struct Reading {
     return 1;
   }
 
+  // The stretch from any measure of strain: 1 + e, sqrt(1 + 2 E), exp(ln stretch). In simple shear
+  // the column is the amount of shear itself.
   double stretch(const CsvRow& row, const AxisColumns& axis) {
     const std::size_t before = errors.size();
     const double e = number(row, axis.strain) * axis.strain_factor;
@@ -387,6 +395,7 @@ struct Reading {
     return 1;
   }
 
+  // Whether the config wants this row: by the block that it is in, and by texts in other columns.
   bool chosen(const CsvRow& row) const {
     if (block && row.block != *block) return false;
     return std::all_of(where.begin(), where.end(),
@@ -395,6 +404,7 @@ struct Reading {
 
   bool several_blocks() const { return table.blocks.size() > 1 && !block; }
 
+  // A machine may write one block after another, each with its own line of names.
   void choose_block() {
     if (format.block.empty()) return;
     const auto found = std::find(table.blocks.begin(), table.blocks.end(), format.block);
@@ -719,7 +729,7 @@ std::vector<Test> tests_of(const CsvTable& table, const TestFormat& format) {
 // Reads the tests of a table in a text.
 std::vector<Test> parse_tests(const std::string& text, const std::string& shown_name,
                               const TestFormat& format) {
-  // A name, or the place of one: "column 3" is a text that is no number.
+  // Whether a line of the file has this name, or at the place "column 3" a text that is no number.
   const auto has = [](const std::vector<CsvCell>& cells, const std::string& name) {
     const std::string word = "column ";
     if (name.starts_with(word)) {
@@ -753,10 +763,12 @@ std::vector<Test> parse_tests(const std::string& text, const std::string& shown_
   return tests_of(parse_table(text, shown_name, {format.decimal, names_columns}), format);
 }
 
+// Reads the tests of a file; errors name its lines and columns.
 std::vector<Test> read_tests(const std::string& path, const TestFormat& format) {
   return parse_tests(text_of_table(path), path, format);
 }
 
+// Stretch minus 1, without the rounding error that the subtraction leaves: 1.1 gives 0.1.
 double engineering_strain(double stretch) {
   constexpr double digits = 1e15;
   if (std::abs(stretch) < 8) return std::round((stretch - 1) * digits) / digits;

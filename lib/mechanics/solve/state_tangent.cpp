@@ -9,6 +9,8 @@
 
 namespace langer {
 
+// Linearises the accepted state once: the factor of its tangent, and the contact laws at the nodes
+// that touch. Every derivative then costs one solution.
 StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
     : statics_(statics),
       factor_(statics.condensed_factor()),
@@ -20,6 +22,8 @@ StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
   if (!near_.empty()) take_rows();
 }
 
+// Collects the candidates that touch, with their laws linearised at the accepted state. Open ones
+// count only where springs support a free body, since the springs act on them.
 void StateTangent::take_candidates() {
   const BodyState &now = statics_.now_, &before = statics_.before_;
   const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
@@ -86,6 +90,9 @@ StateTangent::Rows StateTangent::rows_of(std::size_t p, double typical) const {
   return rows;
 }
 
+// The equations of all touching nodes: X (gap and slip) = R (reaction), with the condensed
+// compliance W between them, and one more row for an indenter with a given force. Rows have the
+// size of a compliance, so that the matrix is well scaled.
 void StateTangent::take_rows() {
   const auto m = static_cast<Eigen::Index>(near_.size());
   const auto n = 3 * m + (pushed_ ? 1 : 0);
@@ -121,6 +128,7 @@ void StateTangent::take_rows() {
   if (singular_) least_.compute(M);
 }
 
+// Movements of the candidates in their local frames: normal first, then two tangents.
 VecX StateTangent::local_of(const VecX& last) const {
   VecX d(3 * static_cast<Eigen::Index>(near_.size()));
   for (std::size_t p = 0; p < near_.size(); ++p) {
@@ -133,6 +141,7 @@ VecX StateTangent::local_of(const VecX& last) const {
   return d;
 }
 
+// The increment that led to the state: slip is measured over it.
 IncrementMove StateTangent::increment_move() const {
   const BodyState &now = statics_.now_, &was = statics_.before_;
   return {statics_.equilibrium_.mesh().X, was.u, expected_, was.t, was.travel, now.t, now.travel};
@@ -161,6 +170,7 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
   return out;
 }
 
+// How far a parameter moves the node against its indenter directly, in the local frame.
 Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near) const {
   Vec3 moved = Vec3::Zero();
   if (change.prescribed.size() > 0)
@@ -170,6 +180,8 @@ Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near
   return near.law.frame.transpose() * moved;
 }
 
+// How a parameter changes the contact laws themselves: by the slip that the states before have
+// left, by prescribed movements, and by the coefficient of friction.
 VecX StateTangent::right_hand_side(const ParameterChange& change,
                                    const std::vector<Vec3>& history) const {
   VecX h = VecX::Zero(3 * static_cast<Eigen::Index>(near_.size()) + (pushed_ ? 1 : 0));
@@ -236,6 +248,8 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
   return std::nullopt;
 }
 
+// Adds the answer of one solution to a derivative: displacements, the travel of a pushed indenter,
+// and reactions.
 void StateTangent::add(const Change& change, StateDerivative& to) const {
   const Dofs& dofs = statics_.equilibrium_.dofs();
   for (int row = 0; row < dofs.n_free(); ++row) to.u[dofs.free[row]] += change.move[row];
@@ -250,6 +264,7 @@ void StateTangent::add(const Change& change, StateDerivative& to) const {
   }
 }
 
+// A derivative of size zero.
 StateDerivative StateTangent::of_rest() const {
   StateDerivative d;
   d.u = VecX::Zero(statics_.equilibrium_.dofs().n);
@@ -258,6 +273,8 @@ StateDerivative StateTangent::of_rest() const {
   return d;
 }
 
+// What a derivative leaves unbalanced: reactions and the skew part of pressures minus K times the
+// movement.
 VecX StateTangent::on_free_rows(const StateDerivative& d) const {
   Assembler& body = statics_.equilibrium_;
   VecX all = VecX::Zero(body.dofs().n);
@@ -269,6 +286,7 @@ VecX StateTangent::on_free_rows(const StateDerivative& d) const {
   return statics_.on_free_rows(all) - body.K_times(statics_.on_free_rows(d.u));
 }
 
+// The change of the internal forces by the parameter at fixed free displacements.
 VecX StateTangent::on_free_rows(const ParameterChange& change) const {
   Assembler& body = statics_.equilibrium_;
   VecX all = change.f.size() > 0 ? change.f : VecX(VecX::Zero(body.dofs().n));
@@ -279,6 +297,8 @@ VecX StateTangent::on_free_rows(const ParameterChange& change) const {
   return statics_.on_free_rows(all);
 }
 
+// Solves for the derivative of the state with iterative refinement: the factor is that of a
+// symmetric tangent with springs, and what it leaves is corrected until rounding is reached.
 std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& change,
                                                         const StateDerivative& before,
                                                         const StateDerivative& earlier,
