@@ -35,8 +35,7 @@ VecX Statics::free_residual() const {
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i)
       f.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
-  if (!bodies_.empty())
-    bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), f);
+  if (!bodies_.empty()) bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), f);
   return on_free_rows(f);
 }
 
@@ -54,21 +53,21 @@ double Statics::force_scale() const {
 
 // Penetration, complementarity and Coulomb's cone at every candidate, to the tolerances.
 bool Statics::contact_law_holds(const VecX& u) const {
+  const auto is_broken = [&](const ContactDefect& d) {
+    return d.penetration > gap_tolerance_ || d.complementarity > options_.law_tolerance ||
+           d.cone > options_.law_tolerance;
+  };
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactDefect d = contact_defect(contacts_[k], equilibrium_.mesh().X, u, u_start_[k],
                                            indenter_displacement(contacts_[k], t_, travel_),
                                            indenter_displacement(contacts_[k], now_.t, now_.travel),
                                            r_[k], motion(now_.t));
-    if (d.penetration > gap_tolerance_ || d.complementarity > options_.law_tolerance ||
-        d.cone > options_.law_tolerance)
-      return false;
+    if (is_broken(d)) return false;
   }
   if (bodies_.empty()) return true;
-  for (const ContactDefect& d : bodies_.defects(equilibrium_.mesh().X, u, now_.u, r_,
-                                                contacts_.size(), motion(now_.t)))
-    if (d.penetration > gap_tolerance_ || d.complementarity > options_.law_tolerance ||
-        d.cone > options_.law_tolerance)
-      return false;
+  for (const ContactDefect& d :
+       bodies_.defects(equilibrium_.mesh().X, u, now_.u, r_, contacts_.size(), motion(now_.t)))
+    if (is_broken(d)) return false;
   return true;
 }
 
@@ -169,8 +168,7 @@ void Statics::moved(const VecX& du, double step) {
   if (bordered()) move_border(step);
   if (!bodies_.empty()) {
     for (std::size_t k = contacts_.size(); k < r_.size(); ++k)
-      for (std::size_t i = 0; i < r_[k].size(); ++i)
-        r_[k][i] += step * (r_next_[k][i] - r_[k][i]);
+      for (std::size_t i = 0; i < r_[k].size(); ++i) r_[k][i] += step * (r_next_[k][i] - r_[k][i]);
     bodies_.turn(X, u_, step * du, r_, contacts_.size());
   }
   if (controlled_ >= 0) travel_ += step * travel_next_;
