@@ -58,6 +58,7 @@ class Modes {
     // no vertical tap excites motions along z' where they are alone: a stiffness holds them
     const bool decoupled = std::ranges::all_of(moduli_, is_decoupled);
     if (query.mode != WaveMode::vertical || !decoupled) return;
+    held_ = true;
     constexpr double held = 1e6;
     for (DirectedModuli<double>& m : moduli_) {
       m.Q(2, 2) = held * m.Q.cwiseAbs().maxCoeff();
@@ -66,12 +67,13 @@ class Modes {
   }
 
   double fastest() const { return fastest_; }
-  // A wave on a half-space is slower than the shear wave that moves vertically: what is faster
-  // spreads through the depth.
+  // A wave that is faster than the shear waves of a half-space below leaks into it.
   double top_speed() const {
-    const DirectedModuli<double>& m = moduli_[0];
-    if (moduli_.size() > 1 || !std::isinf(thickness_[0])) return 1.2 * fastest_;
-    return std::sqrt(std::max(m.Q(1, 1), 1e-6 * m.Q.cwiseAbs().maxCoeff()) / m.density);
+    if (!stack_.has_half_space()) return 1.2 * fastest_;
+    const DirectedModuli<double>& m = moduli_.back();
+    double modulus = std::max(m.Q(1, 1), 0.0);
+    if (!held_) modulus = std::max(std::min(modulus, m.Q(2, 2)), 0.0);
+    return std::sqrt(modulus / m.density);
   }
   const std::vector<DirectedModuli<double>>& moduli() const { return moduli_; }
 
@@ -102,6 +104,7 @@ class Modes {
   std::vector<DirectedModuli<double>> moduli_;
   std::vector<double> thickness_, slowest_;
   double fastest_ = 0;
+  bool held_ = false;  // motions along z'
 };
 
 // A mode that was found on one mesh.
@@ -291,22 +294,27 @@ GuidedWave guided_wave(const LayerStack& stack, const WaveQuery& query) {
   const Search search{chain, of_frequency, of_frequency ? k : *asked.frequency};
   double bottom = 0;
   double top = 0;
+  const bool leaks = stack.has_half_space();
   if (of_frequency) {
     if (search.count(0) > 0) return none("the stretched layers are unstable: they wrinkle");
     top = std::pow(modes.top_speed() * k, 2);
-    for (int i = 0; i < 40 && search.count(top) == 0; ++i) top *= 2;
+    for (int i = 0; i < 40 && !leaks && search.count(top) == 0; ++i) top *= 2;
   } else {
     // at short wavelengths there are no modes below the frequency
     bottom = -k;
     for (int i = 0; i < 60 && search.count(bottom) > 0; ++i) bottom *= 1.5;
     if (search.count(bottom) > 0) return none("the stretched layers are unstable: they wrinkle");
     top = -k * fastest / modes.top_speed();
-    for (int i = 0; i < 10 && search.count(top) == 0; ++i) top /= 2;
-    if (search.count(top) == 0) return none("no wave of this frequency travels: it is cut off");
+    for (int i = 0; i < 10 && !leaks && search.count(top) == 0; ++i) top /= 2;
+    if (!leaks && search.count(top) == 0)
+      return none("no wave of this frequency travels: it is cut off");
   }
   int most = asked.modes;
-  if (asked.mode == WaveMode::slowest) most = 1;
+  if (asked.mode == WaveMode::slowest || (leaks && stack.layers.size() == 1)) most = 1;
   const std::vector<Found> all = find_modes(search, bottom, top, most);
+  if (all.empty() && leaks) {
+    return none("the wave is faster than shear waves of the half-space and leaks into it");
+  }
   if (all.empty()) return none("no mode was found");
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {

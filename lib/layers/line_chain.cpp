@@ -1,6 +1,7 @@
 #include "layers/line_chain.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -112,7 +113,7 @@ LineChain<Number>::LineChain(std::vector<DirectedModuli<Number>> layers, LineMes
                              BottomFace bottom, double surface_tension)
     : layers_(std::move(layers)),
       mesh_(std::move(mesh)),
-      held_(mesh_.cut || bottom == BottomFace::fixed),
+      held_(!mesh_.cut && bottom == BottomFace::fixed),
       tension_(surface_tension) {}
 
 template <class Number>
@@ -143,14 +144,80 @@ void LineChain<Number>::add_stiffness(const DepthLine& line, Number k, double w2
       E(place_of_pressure[n], place_of_pressure[l]) -= pressures[n][l] * h * m.compressibility;
 }
 
+// A chain of 2^20 lines like the last one, fixed below. Unknowns of a part: (u, p) of its lower
+// node, then of its upper one.
+template <class Number>
+typename LineChain<Number>::HalfSpace LineChain<Number>::half_space(Number k, double w2) const {
+  constexpr int doublings = 20;
+  constexpr int most = 1 << 20;
+  Local E = Local::Zero();
+  add_stiffness(mesh_.lines.front(), k, w2, E);
+  HalfSpace found;
+  for (int c = 0; c < 3; ++c) {  // the middle node of the line
+    const Number pivot = pivot_or_tiny(E(c, c));
+    if (is_negative(pivot)) ++found.modes;
+    for (int col = c + 1; col < 11; ++col) {
+      const Number factor = E(c, col) / pivot;
+      for (int row = c + 1; row < 11; ++row) E(row, col) -= E(row, c) * factor;
+    }
+  }
+  // pressures first: their pivots are negative
+  constexpr int order[8] = {3, 4, 5, 6, 10, 7, 8, 9};
+  Eigen::Matrix<Number, 8, 8> part;
+  for (int a = 0; a < 8; ++a)
+    for (int b = 0; b < 8; ++b) part(a, b) = E(order[a], order[b]);
+  for (int doubling = 0; doubling < doublings; ++doubling) {
+    // unknowns: the node between both parts, the lower one, the upper one
+    Eigen::Matrix<Number, 12, 12> both = Eigen::Matrix<Number, 12, 12>::Zero();
+    const auto lower = part.template topLeftCorner<4, 4>();
+    const auto upper = part.template bottomRightCorner<4, 4>();
+    const auto coupling = part.template topRightCorner<4, 4>();
+    both.template block<4, 4>(0, 0) = lower + upper;
+    both.template block<4, 4>(4, 4) = lower;
+    both.template block<4, 4>(8, 8) = upper;
+    both.template block<4, 4>(4, 0) = coupling;
+    both.template block<4, 4>(0, 4) = coupling.transpose();
+    both.template block<4, 4>(0, 8) = coupling;
+    both.template block<4, 4>(8, 0) = coupling.transpose();
+    found.modes = std::min(2 * found.modes - 1, most);  // less the pressure between
+    for (int c = 0; c < 4; ++c) {
+      const Number pivot = pivot_or_tiny(both(c, c));
+      if (is_negative(pivot)) ++found.modes;
+      for (int col = c + 1; col < 12; ++col) {
+        const Number factor = both(c, col) / pivot;
+        for (int row = c + 1; row < 12; ++row) both(row, col) -= both(row, c) * factor;
+      }
+    }
+    part = both.template bottomRightCorner<8, 8>();
+    if (part.template topRightCorner<4, 4>().norm() < 1e-18 * part.norm()) break;
+  }
+  // the pressure at the fixed end
+  const Number pivot = pivot_or_tiny(part(0, 0));
+  if (is_negative(pivot)) ++found.modes;
+  --found.modes;
+  const Eigen::Matrix<Number, 4, 1> column = part.template block<4, 1>(4, 0);
+  const Node top = part.template bottomRightCorner<4, 4>() - column * column.transpose() / pivot;
+  constexpr int back[4] = {1, 2, 3, 0};  // to (u, p)
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b) found.stiffness(a, b) = top(back[a], back[b]);
+  return found;
+}
+
 template <class Number>
 void LineChain<Number>::eliminate(Number k, double w2, bool keep) {
   k_ = k;
+  w2_ = w2;
   if (keep) parts_.assign(mesh_.lines.size(), {});
   int negative = 0;
   int constraints = 0;
   Eigen::Matrix<Number, 4, 4> below = Eigen::Matrix<Number, 4, 4>::Zero();  // of (u, p)
   bool at_bottom = held_;
+  int below_modes = 0;
+  if (mesh_.cut) {
+    const HalfSpace deep = half_space(k, w2);
+    below = deep.stiffness;
+    below_modes = deep.modes;
+  }
   for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
     const DepthLine& line = mesh_.lines[i];
     const bool first_of_layer = i == 0 || mesh_.lines[i - 1].layer != line.layer;
@@ -209,7 +276,7 @@ void LineChain<Number>::eliminate(Number k, double w2, bool keep) {
   surface_ = below.template topLeftCorner<3, 3>();
   surface_ = (surface_ + Mat(surface_.transpose())) / Number(2);
   surface_(1, 1) += Number(tension_) * k * k;
-  modes_below_ = negative + negative_eigenvalues(surface_) - constraints;
+  modes_below_ = below_modes + negative + negative_eigenvalues(surface_) - constraints;
 }
 
 template <class Number>
@@ -242,6 +309,18 @@ typename LineChain<Number>::Forms LineChain<Number>::forms(const Vec& v) const {
     }
     u = node[0];
     p = q[0];
+  }
+  if (mesh_.cut) {
+    // dS/dw^2 and dS/dk of the half-space by central differences
+    constexpr double h = 1e-5;
+    Eigen::Matrix<Number, 4, 1> x;
+    x << u, p;
+    const double dw2 = h * std::max(w2_, std::abs(k_ * k_) * 1e-6);
+    const Number dk = h * k_;
+    const Node of_w2 = half_space(k_, w2_ + dw2).stiffness - half_space(k_, w2_ - dw2).stiffness;
+    const Node of_k = half_space(k_ + dk, w2_).stiffness - half_space(k_ - dk, w2_).stiffness;
+    forms.mass -= (x.transpose() * of_w2 * x)(0) / (2 * dw2);
+    forms.slope += (x.transpose() * of_k * x)(0) / (2. * dk);
   }
   return forms;
 }

@@ -10,7 +10,9 @@
 //     (Sturm; Wittrick and Williams 1971), whatever the mode looks like;
 //   - where an eigenvalue s of the surface stiffness is 0, its vector is the surface motion of a
 //     mode; ds/dw^2 = -u.M u and ds/dk = u.K'(k) u give Newton's step.
-// One elimination costs a few thousand operations a line. Attenuation takes complex moduli.
+// Below a half-space stands a chain of equal lines without end: two equal parts are joined to one
+// of twice the thickness by elimination of the node between them, twenty times. One elimination
+// costs a few thousand operations a line. Attenuation takes complex moduli.
 #pragma once
 
 #include <Eigen/Core>
@@ -70,6 +72,12 @@ class LineChain {
     Vec pressure = Vec::Zero();              // of the upper node, from its u; at the top of a layer
     bool top_of_layer = false;
   };
+  using Node = Eigen::Matrix<Number, 4, 4>;  // of (u, p)
+  struct HalfSpace {
+    Node stiffness;  // of its upper node
+    int modes = 0;
+  };
+  HalfSpace half_space(Number k, double w2) const;
   void add_stiffness(const DepthLine& line, Number k, double w2, Local& E) const;
 
   std::vector<DirectedModuli<Number>> layers_;
@@ -79,6 +87,7 @@ class LineChain {
   Number k_ = 0;
   Mat surface_;
   int modes_below_ = 0;
+  double w2_ = 0;
   std::vector<Part> parts_;
 };
 

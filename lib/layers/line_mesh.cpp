@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace langer {
 
@@ -43,16 +42,21 @@ LineMesh line_mesh(const std::vector<double>& thickness, double k,
                    const LineChoice& choice) {
   LineMesh mesh;
   std::vector<DepthLine> from_top;
-  double deepest = std::numeric_limits<double>::infinity();
-  if (cuttable || std::isinf(thickness.back())) deepest = choice.depth / k;
   double depth = 0;
   for (std::size_t layer = 0; layer < thickness.size() && !mesh.cut; ++layer) {
-    const double left = deepest - depth;
     const double oscillates = std::max(oscillation[layer], 0.0);
+    const bool endless = std::isinf(thickness[layer]);
     std::vector<double> lengths;
-    mesh.cut = thickness[layer] > left && (oscillates == 0 || std::isinf(thickness[layer]));
-    const double here = mesh.cut ? left : thickness[layer];
-    if (oscillates > k) {
+    const bool deep = cuttable && oscillates == 0 && depth + thickness[layer] > choice.deep / k;
+    mesh.cut = endless || deep;
+    double here = thickness[layer];
+    if (endless) {
+      here = std::max(choice.depth / k - depth, choice.largest / k);
+    } else if (deep) {
+      here = std::max(choice.deep / k - depth, choice.largest / k);
+      here = std::min(here, thickness[layer]);
+    }
+    if (oscillates > k && !endless) {
       lengths = uniform(here, oscillates, choice);
     } else if (mesh.cut) {
       lengths = graded(here, k, choice);

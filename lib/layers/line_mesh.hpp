@@ -2,8 +2,9 @@
 //
 // Motions along the surface with the wavenumber k decay like exp(-s k d) with the distance d from
 // the surface or interface that they belong to. Lines are therefore short next to faces and grow
-// with the distance; a half-space, or what lies deeper than `depth` wavenumbers, ends there:
+// with the distance:
 //   h(d) = (size / k) (1 + growth k d), at most largest / k
+// What lies deeper is a half-space of lines of the last length, without end (line_chain.hpp).
 // Longer lines would keep the volume too loosely, and show modes that are none.
 // Where a wave is faster than the layer's own shear waves, it does not decay but oscillates; lines
 // then have one size, that of the oscillation.
@@ -22,7 +23,8 @@ struct LineChoice {
   double size = 0.4;     // of the first line, times k
   double growth = 0.3;   // per distance, times k
   double largest = 1.6;  // of a line, times k
-  double depth = 40;     // of a half-space, times k
+  double depth = 12;     // from which a half-space is a chain of equal lines, times k
+  double deep = 60;      // from which a layer counts as a half-space, times k
   int refine = 1;        // every line is divided so often
 };
 

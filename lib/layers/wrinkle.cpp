@@ -1,10 +1,12 @@
 #include "layers/wrinkle.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace langer {
 
@@ -14,8 +16,10 @@ using Vec2 = Eigen::Vector2d;
 constexpr double pi = std::numbers::pi;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// Whether waves of the wavenumber k along a direction grow.
-bool unstable(const LayerStack& stack, double wave_angle, double k, int refine) {
+// How far waves of the wavenumber k along a direction are from growing: negative where they grow.
+// The smallest stiffness of the surface, which is 0 at a wrinkle; the number of modes gives the
+// sign.
+double stability(const LayerStack& stack, double wave_angle, double k, int refine) {
   std::vector<DirectedModuli<double>> moduli;
   std::vector<double> thickness;
   for (const LayerState& layer : stack.layers) {
@@ -29,7 +33,14 @@ bool unstable(const LayerStack& stack, double wave_angle, double k, int refine) 
   LineChain<double> chain(moduli, line_mesh(thickness, k, decays, cuttable, choice), stack.bottom,
                           stack.surface_tension);
   chain.eliminate(k, 0);
-  return chain.modes_below() > 0;
+  const double smallest =
+      Eigen::SelfAdjointEigenSolver<Mat3>(chain.surface(), Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (chain.modes_below() > 0) return -std::abs(smallest) - std::numeric_limits<double>::min();
+  return std::abs(smallest);
+}
+
+bool unstable(const LayerStack& stack, double wave_angle, double k, int refine) {
+  return stability(stack, wave_angle, k, refine) < 0;
 }
 
 // The path of one direction: s as a distance t >= 0 from the prestretch.
@@ -43,20 +54,36 @@ class Path {
   double s(double t) const { return problem_.load == WrinkleLoad::shear ? t : std::exp(-t); }
   LayerStack stack(double t) const { return problem_.stack(angle_, s(t)); }
 
-  bool unstable_at(double t, double wave_angle, double k, int refine) const {
+  double stability_at(double t, double wave_angle, double k, int refine) const {
     const LayerStack there = stack(t);
-    return !there.exists() || unstable(there, wave_angle, k, refine);
+    if (!there.exists()) return -1;
+    return stability(there, wave_angle, k, refine);
   }
 
-  // The smallest t in [low, high] at which a wave is unstable; it is at `high`.
-  double critical(double low, double high, double wave_angle, double k, int refine,
-                  double tolerance) const {
-    while (high - low > tolerance) {
-      const double middle = 0.5 * (low + high);
-      if (unstable_at(middle, wave_angle, k, refine)) {
-        high = middle;
+  // The smallest t in [low, high] at which a wave is unstable; nothing if it is stable at `high`.
+  // Illinois' secants, with a bisection every third time.
+  std::optional<double> critical(double low, double high, double wave_angle, double k, int refine,
+                                 double tolerance) const {
+    double at_high = stability_at(high, wave_angle, k, refine);
+    if (at_high >= 0) return std::nullopt;
+    double at_low = stability_at(low, wave_angle, k, refine);
+    if (at_low < 0) return low;
+    double last = low;
+    for (int i = 0; i < 100 && high - low > tolerance; ++i) {
+      double t = 0.5 * (low + high);
+      if (i % 3 != 2) t = low + (high - low) * at_low / (at_low - at_high);
+      const bool settled = i % 3 != 2 && std::abs(t - last) < tolerance;
+      if (settled) return t;
+      if (i % 3 != 2) last = t;
+      const double here = stability_at(t, wave_angle, k, refine);
+      if (here < 0) {
+        high = t;
+        at_high = here;
+        if (i % 3 == 1) at_low /= 2;
       } else {
-        low = middle;
+        low = t;
+        at_low = here;
+        if (i % 3 == 1) at_high /= 2;
       }
     }
     return 0.5 * (low + high);
@@ -142,16 +169,16 @@ struct Optimum {
 };
 
 Optimum smallest_over_k(const Path& path, double wave_angle, double start, double from, double to,
-                        int refine, bool any_wavelength) {
-  constexpr double fine = 1e-12;
-  if (any_wavelength) return {start, path.critical(from, to, wave_angle, start, refine, fine)};
+                        int refine, bool any_wavelength, double reach = 0.35) {
+  if (any_wavelength) {
+    return {start, path.critical(from, to, wave_angle, start, refine, 1e-12).value_or(to)};
+  }
   const double middle = std::log(start);
   const auto t_of = [&](double log_k) {
-    const double k = std::exp(log_k);
-    if (!path.unstable_at(to, wave_angle, k, refine)) return to + 1e-9 * std::abs(log_k - middle);
-    return path.critical(from, to, wave_angle, k, refine, 1e-11);
+    const auto t = path.critical(from, to, wave_angle, std::exp(log_k), refine, 1e-11);
+    return t.value_or(to + 1e-9 * std::abs(log_k - middle));
   };
-  const auto [log_k, t] = golden(middle - 0.35, middle + 0.35, 1e-4, t_of);
+  const auto [log_k, t] = golden(middle - reach, middle + reach, 1e-4, t_of);
   return {std::exp(log_k), t};
 }
 
@@ -294,17 +321,22 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (short_first) k0 = shortest;
   if (long_first) k0 = ks.front();
 
-  const auto along = [&](double wave_angle, int refine) {
-    return smallest_over_k(path, wave_angle, k0, from, to, refine, any_wavelength);
-  };
-  // the direction of k, where it is not that of the compression by symmetry
+  // the direction of k, where it is not that of the compression by symmetry: in turn the best
+  // wavenumber and the best direction
   if (first.angle != angle || shear) {
-    const auto [best, t] = golden(first.angle - 0.27, first.angle + 0.27, 1e-4,
-                                  [&](double wave_angle) { return along(wave_angle, 1).t; });
-    wrinkle.wave_angle = best;
+    wrinkle.wave_angle = first.angle;
+    for (const double reach : {0.3, 0.05, 0.01}) {
+      k0 = smallest_over_k(path, wrinkle.wave_angle, k0, from, to, 1, any_wavelength, reach).k;
+      const double middle = wrinkle.wave_angle;
+      wrinkle.wave_angle = golden(middle - reach, middle + reach, 1e-4, [&](double wave_angle) {
+                             const auto t = path.critical(from, to, wave_angle, k0, 1, 1e-11);
+                             return t.value_or(to + 1e-9 * std::abs(wave_angle - middle));
+                           }).first;
+    }
   }
-  const Optimum coarse = along(wrinkle.wave_angle, 1);
-  const Optimum fine = along(wrinkle.wave_angle, 2);
+  const Optimum coarse = smallest_over_k(path, wrinkle.wave_angle, k0, from, to, 1, any_wavelength);
+  const Optimum fine =
+      smallest_over_k(path, wrinkle.wave_angle, coarse.k, from, to, 2, any_wavelength, 0.02);
   const double t = fine.t + (fine.t - coarse.t) / 15;
   wrinkle.s = path.s(t);
   wrinkle.error = std::abs(wrinkle.s - path.s(fine.t)) / wrinkle.s;
