@@ -10,7 +10,7 @@
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
-#include "core/base/output_file.hpp"
+#include "core/hdf5/seal.hpp"
 #include "identification/inverse/uncertainty.hpp"
 #include "results/store/step_journal.hpp"
 #include "scene/model/material_review.hpp"
@@ -192,10 +192,9 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
 
   const auto forces = observers.uncertainty->of(end.last);
   report_forces(job.voice(), input.parameters, forces, errors.at_end);
-  const Summaries results =
-      joined({observers.sensitivity->summary(end.last), summary_of(forces),
-              summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary(),
-              of_vibration});
+  const Summaries results = joined({observers.sensitivity->summary(end.last), summary_of(forces),
+                                    summary_of(errors.at_end), model.summary(errors.at_end),
+                                    watch.contact_summary(), of_vibration});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
 

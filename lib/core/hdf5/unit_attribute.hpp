@@ -27,7 +27,7 @@ inline void require_unit(const h5::Group& group, const std::string& name, const 
 }
 
 inline bool among_ours(const std::string& unit) {
-  for (const char* ours : {"mm", "N", "MPa", "s", "deg", "percent", "MB"})
+  for (const char* ours : {"mm", "N", "MPa", "s", "Hz", "deg", "percent", "MB"})
     if (unit == ours) return true;
   return false;
 }
@@ -44,7 +44,7 @@ inline void require_known_unit(const h5::Group& group, const std::string& name) 
       continue;
     }
     if (!word.empty() && !among_ours(word))
-      group.refuse(name, fmt::format("values in {}", unit), "values in mm, N, MPa, s or deg",
+      group.refuse(name, fmt::format("values in {}", unit), "values in mm, N, MPa, s, Hz or deg",
                    "convert them");
     word.clear();
   }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/hdf5/h5.hpp"
+#include "core/hdf5/unit_attribute.hpp"
 #include "results/store/solution_file.hpp"
 
 namespace langer {
@@ -18,11 +19,9 @@ std::vector<double> flat(const std::vector<std::vector<Vec3>>& fields) {
   return values;
 }
 
-// Numbers in another unit are refused, as everywhere in a solution.
 std::vector<double> read_in_unit(const h5::Group& group, const std::string& name,
                                  const h5::Shape& shape, const std::string& unit) {
-  if (group.has(name) && group.unit(name) != unit)
-    group.refuse(name, "found the unit " + group.unit(name), unit);
+  require_unit(group, name, unit);
   return group.read_finite(name, shape);
 }
 

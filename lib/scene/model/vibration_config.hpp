@@ -60,7 +60,7 @@ struct FrequenciesConfig {
       if (i == count - 1) {
         all.push_back(*to);
       } else if (scale == FrequencyScale::log) {
-        all.push_back(*from * std::pow(*to / *from, share));
+        all.push_back(std::pow(10, std::log10(*from) + share * std::log10(*to / *from)));
       } else {
         all.push_back(*from + share * (*to - *from));
       }
