@@ -39,6 +39,7 @@ class LinearMixed {
   }
 
   std::vector<Linear> data;
+  VecX reference;  // beta where nothing is known of it
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(entry_.size()) + 1; }
   Eigen::Index random_size() const { return static_cast<Eigen::Index>(random_.size()); }
@@ -105,7 +106,8 @@ class LinearMixed {
              one.values * std::log(2 * std::numbers::pi);
       sum += 2 * factors.back().matrixLLT().diagonal().array().log().sum();
     }
-    value.beta = LeastNorm(normal).solve(right);
+    // what the data say nothing of stays where it is
+    value.beta = reference + LeastNorm(normal, 1e-10).solve(right - normal * reference);
     value.beta_information = normal;
     const auto r = random_size();
     MatX of_omega = MatX::Zero(r, r);
@@ -153,6 +155,9 @@ class LinearMixed {
   VecX maximise(VecX x) const {
     double damping = 1e-3;
     Value now = at(x, true);
+    if (!std::isfinite(now.minus_two_log_likelihood)) {
+      return x;
+    }
     for (int iteration = 0; iteration < 500; ++iteration) {
       MatX H = 2 * now.information;
       const double least = 1e-12 * H.diagonal().maxCoeff();
@@ -212,7 +217,7 @@ class LinearMixed {
 // The mode of one specimen: min over z of |u(centre + L z)|^2 / sigma^2 + |z|^2. False where the
 // model has no state at the beginning.
 bool find_mode(const MixedSpecimen& specimen, const VecX& centre, const MatX& spread, double sigma,
-               VecX& z) {
+               VecX& z, double& cost) {
   VecX u;
   MatX J;
   if (!specimen.residual(centre + spread * z, u, &J)) {
@@ -222,7 +227,7 @@ bool find_mode(const MixedSpecimen& specimen, const VecX& centre, const MatX& sp
     }
   }
   const double weight = 1 / (sigma * sigma);
-  double cost = weight * u.squaredNorm() + z.squaredNorm();
+  cost = weight * u.squaredNorm() + z.squaredNorm();
   double damping = 1e-4;
   for (int iteration = 0; iteration < 100; ++iteration) {
     const MatX K = J * spread;
@@ -337,6 +342,90 @@ void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const
   }
 }
 
+// Keeps deviations between specimens from growing by more than a factor of three at once, and
+// below the largest that is believed in. Linear models are trusted no further.
+VecX limited(const LinearMixed& model, const VecX& next, const MatX& L_before, const VecX& largest) {
+  MatX L = model.factor(next);
+  for (Eigen::Index j = 0; j < L.rows(); ++j) {
+    const double deviation = L.row(j).norm();
+    double most = 3 * L_before.row(j).norm() + 0.05;
+    if (largest.size() > 0) most = std::min(most, largest[j]);
+    if (deviation > most) L.row(j) *= most / deviation;
+  }
+  VecX x = model.parameters(L, 1);
+  x[model.size() - 1] = next[model.size() - 1];
+  return x;
+}
+
+struct Modes {
+  std::vector<VecX> phi;
+  double cost = 0;  // sum of |u|^2/sigma^2 + |z|^2
+};
+
+// The modes of all specimens for given population and scatter, from those of the round before.
+// Returns which specimen has none; empty: each has one.
+std::string find_modes(const std::vector<MixedSpecimen>& specimens, const LinearMixed& model,
+                       const VecX& x, const std::vector<Eigen::Index>& random,
+                       const MixedOptions& options, MixedResult& result, Modes& modes) {
+  const auto n = specimens.size();
+  const auto q = specimens.front().design.rows();
+  const MatX L = model.factor(x);
+  MatX spread = MatX::Zero(q, L.cols());
+  spread(random, Eigen::all) = L;
+  const double sigma = std::exp(0.5 * x[model.size() - 1]);
+  const LeastNorm inverse(L);
+  std::vector<char> exists(n, 1);
+  result.b.resize(n);
+  modes.phi.resize(n);
+  std::vector<VecX> b(n);
+  std::vector<double> cost(n, 0);
+  in_order(
+      options.threads, static_cast<int>(n),
+      [&](int, int job) {
+        const auto i = static_cast<std::size_t>(job);
+        VecX z = VecX::Zero(L.cols());
+        if (result.b[i].size() == q) z = inverse.solve(result.b[i](random));
+        const VecX centre = specimens[i].design * result.beta;
+        exists[i] = find_mode(specimens[i], centre, spread, sigma, z, cost[i]);
+        b[i] = spread * z;
+        modes.phi[i] = centre + b[i];
+      },
+      [](int, int) {});
+  modes.cost = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!exists[i]) return "the model has no stress for specimen " + std::to_string(i + 1);
+    modes.cost += cost[i];
+  }
+  result.b = b;
+  return "";
+}
+
+// Moves beta along a step, halved until the cost of modes and scatter does not rise. `share`: of the
+// step that was taken. Returns which specimen has no mode; empty: each has one.
+std::string take_step(const std::vector<MixedSpecimen>& specimens, const LinearMixed& model,
+                      const VecX& x, const std::vector<Eigen::Index>& random,
+                      const MixedOptions& options, const VecX& step, MixedResult& result,
+                      Modes& modes, double& share) {
+  const std::string missing = find_modes(specimens, model, x, random, options, result, modes);
+  if (!missing.empty()) return missing;
+  const VecX beta = result.beta;
+  const std::vector<VecX> b = result.b;
+  share = 1;
+  for (int halving = 0; halving < 12; ++halving, share *= 0.5) {
+    Modes moved;
+    result.beta = beta + share * step;
+    const bool exist = find_modes(specimens, model, x, random, options, result, moved).empty();
+    if (exist && moved.cost <= modes.cost * (1 + 1e-9)) {
+      modes = moved;
+      return "";
+    }
+    result.b = b;
+  }
+  result.beta = beta;
+  share = 0;
+  return "";
+}
+
 }  // namespace
 
 MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const MixedState& start,
@@ -361,62 +450,57 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
     L = omega_start.diagonal().cwiseSqrt().asDiagonal();
   }
   VecX x = model.parameters(L, start.sigma);
-  std::vector<VecX> z(n, VecX::Zero(r));
-  std::vector<VecX> phi(n);
   LinearMixed::Value value;
+  VecX largest;
+  if (options.largest_deviation.size() > 0) largest = options.largest_deviation(random);
+  Modes modes;
+  result.why = find_modes(specimens, model, x, random, options, result, modes);
+  if (!result.why.empty()) {
+    return result;
+  }
 
   for (result.rounds = 1; result.rounds <= options.rounds; ++result.rounds) {
-    // The modes, and the model that is linear there. The modes of the round before are the start.
-    MatX spread = MatX::Zero(q, r);
-    spread(random, Eigen::all) = L;
-    const double sigma = std::exp(0.5 * x[model.size() - 1]);
-    const LeastNorm inverse(L);
-    std::vector<char> exists(n, 1);
-    in_order(
-        options.threads, static_cast<int>(n),
-        [&](int, int job) {
-          const auto i = static_cast<std::size_t>(job);
-          if (!start.b.empty() && result.rounds == 1 && start.b[i].size() == q) {
-            z[i] = inverse.solve(start.b[i](random));
-          } else if (result.rounds > 1 && result.b[i].size() == q) {
-            z[i] = inverse.solve(result.b[i](random));
-          }
-          const VecX centre = specimens[i].design * result.beta;
-          exists[i] = find_mode(specimens[i], centre, spread, sigma, z[i]);
-          phi[i] = centre + spread * z[i];
-        },
-        [](int, int) {});
+    // The model that is linear at the modes.
     if (options.reweigh) {
-      options.reweigh(phi);
+      options.reweigh(modes.phi);
     }
-    result.b.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      result.b[i] = spread * z[i];
-      if (!exists[i] || !make_linear(specimens[i], phi[i], model.data[i])) {
-        result.why = "the model has no stress for specimen " + std::to_string(i + 1);
+      if (!make_linear(specimens[i], modes.phi[i], model.data[i])) {
+        result.why = "the model has no derivative for specimen " + std::to_string(i + 1);
         return result;
       }
     }
 
     // Population, effects and variances of largest likelihood.
-    VecX next = model.maximise(x);
+    model.reference = result.beta;
+    VecX next = limited(model, model.maximise(x), L, largest);
     // a late oscillation between two sets of modes is damped
     if (result.rounds > 40) {
       next = 0.5 * (x + next);
     }
     value = model.at(next, true);
-    const VecX beta_before = result.beta;
+    if (!std::isfinite(value.minus_two_log_likelihood)) {
+      result.why = "the likelihood of the linearised model is not finite";
+      return result;
+    }
     const MatX omega_before = L * L.transpose();
     const double variance_change = std::abs(next[model.size() - 1] - x[model.size() - 1]);
     x = next;
     L = model.factor(x);
-    result.beta = value.beta;
     result.beta_covariance = pseudo_inverse(value.beta_information);
+
+    // The population goes to the minimum of the nonlinear model, as far as its cost falls.
+    const VecX step = value.beta - result.beta;
+    double share = 0;
+    result.why = take_step(specimens, model, x, random, options, step, result, modes, share);
+    if (!result.why.empty()) {
+      return result;
+    }
     const MatX omega = L * L.transpose();
-    double change = variance_change;
+    double change = std::max(variance_change, 1 - share);
     for (Eigen::Index j = 0; j < result.beta.size(); ++j) {
       const double error = std::sqrt(result.beta_covariance(j, j));
-      change = std::max(change, std::abs(result.beta[j] - beta_before[j]) / (error + 1e-300));
+      change = std::max(change, std::abs(step[j]) / (error + 1e-300));
     }
     for (Eigen::Index i = 0; i < r; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
@@ -426,13 +510,26 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
         change = std::max(change, std::abs(omega(i, j) - omega_before(i, j)) / size);
       }
     }
+    if (std::getenv("SPEC_DEBUG")) {
+      fprintf(stderr, "round %d share %.3g change %.2g sigma %.3g beta", result.rounds, share, change, std::exp(0.5 * x[model.size() - 1]));
+      for (double v : result.beta) fprintf(stderr, " %.4g", v);
+      fprintf(stderr, " sd");
+      for (Eigen::Index j = 0; j < r; ++j) fprintf(stderr, " %.3g", L.row(j).norm());
+      fprintf(stderr, "\n");
+    }
     if (change < options.tolerance) {
       result.converged = true;
       break;
     }
   }
+  for (Eigen::Index j = 0; j < largest.size(); ++j) {
+    if (L.row(j).norm() > 0.99 * largest[j]) {
+      result.converged = false;
+      result.unlimited.push_back(random[static_cast<std::size_t>(j)]);
+    }
+  }
   result.rounds = std::min(result.rounds, options.rounds);
-  if (!result.converged) {
+  if (!result.converged && result.unlimited.empty()) {
     result.why = "modes and population still change after " + std::to_string(options.rounds) +
                  " rounds";
   }

@@ -32,6 +32,8 @@ struct MixedSpecimen {
 struct MixedOptions {
   std::vector<bool> varies;  // (q) between specimens; empty: all
   bool full = true;          // Omega with correlations; otherwise diagonal
+  // (q) deviation between specimens beyond which a number counts as not known; empty: none
+  VecX largest_deviation = {};
   int threads = 1;
   int rounds = 200;
   double tolerance = 1e-7;  // change of beta in standard errors, and relative change of Omega
@@ -50,6 +52,7 @@ struct MixedState {
 struct MixedResult : MixedState {
   bool converged = false;
   std::string why;
+  std::vector<Eigen::Index> unlimited;  // numbers whose deviation reached the largest
   int rounds = 0;
   double minus_two_log_likelihood = 0;  // of all values, with its constants
   MatX beta_covariance;                 // (k, k)

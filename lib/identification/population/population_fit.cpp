@@ -217,8 +217,21 @@ class Population {
     options.varies = varies_;
     options.full = config_.specimens->scatter == Scatter::full;
     options.threads = config_.jobs;
+    options.largest_deviation = VecX::Constant(numbers(), 1e300);
+    for (Eigen::Index j = 0; j < numbers(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      // a factor of 20 either way in two specimens of three, or any angle, is no scatter
+      if (links_[at].kind != LinkKind::identity) options.largest_deviation[j] = 3;
+      if (units_[at] == unit::deg) options.largest_deviation[j] = 60;
+    }
     options.reweigh = [this, kind](const std::vector<VecX>& phi) { reweigh(phi, kind); };
     MixedResult result = fit_mixed_model(specimens, start, options);
+    std::string unlimited;
+    for (const Eigen::Index j : result.unlimited)
+      append(unlimited, ", ", names_[static_cast<std::size_t>(j)]);
+    if (!unlimited.empty())
+      result.why = "the scatter of " + unlimited +
+                   " grows without limit: the tests do not know it, or specimens lie on its bound";
     result.minus_two_log_likelihood += log_weights_;
     result.likelihood_parameters += noise_.parameters();
     return result;
@@ -437,6 +450,16 @@ First first_estimates(Population& all) {
   for (const Individual& one : all.individuals_)
     largest = std::max(largest, one.measured.cwiseAbs().maxCoeff());
   first.state.sigma = std::max(first.state.sigma, 1e-6 * largest);
+  if (std::getenv("SPEC_DEBUG")) {
+    for (double v : mean.best.p) fprintf(stderr, " %.4g", v);
+    fprintf(stderr, " mean fit\n");
+    for (const VecX& p : first.fits) {
+      for (double v : p) fprintf(stderr, " %.4g", v);
+      fprintf(stderr, "\n");
+    }
+    for (Eigen::Index j = 0; j < q; ++j) fprintf(stderr, " %.4g(%.3g)", centre[j], std::sqrt(omega(j, j)));
+    fprintf(stderr, " start, sigma %.4g\n", first.state.sigma);
+  }
   return first;
 }
 
@@ -850,7 +873,8 @@ PopulationOutcome fit_population(const FitConfig& config,
   if (!result.converged) {
     throw Failure(Exit::not_converged,
                   Error{at("specimens"), "specimens", result.why, "",
-                        "scatter: diagonal, or `shared` for parameters that the tests hardly know"});
+                        "name parameters that the tests hardly know under `shared`, or leave them out of "
+                        "`parameters`; scatter: diagonal has fewer numbers"});
   }
   PopulationOutcome outcome;
   outcome.median = with_parameters(all.individuals_.front().problem,
