@@ -20,6 +20,7 @@ namespace {
 
 constexpr int grace = 30;  // tenths of a second between SIGTERM and SIGKILL
 
+// Both ends are closed on exec: a program gets only the two that it writes to.
 struct Pipe {
   std::array<int, 2> end{-1, -1};
   Pipe() {
@@ -37,6 +38,7 @@ struct Pipe {
   }
 };
 
+// The exit code as a shell gives it.
 int code_of(int status) {
   if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
   return WEXITSTATUS(status);

@@ -35,6 +35,7 @@ bool same_token(const std::string& given, const std::string& token) {
   return difference == 0;
 }
 
+// A header of the request; empty if it is not there.
 std::string header(const http::Request& request, const std::string& name) {
   const auto found = request.header.find(name);
   if (found == request.header.end()) return "";
@@ -65,6 +66,7 @@ class Door {
   ProjectApi& api_;
   int port_ = 0;
 
+  // Whether a name and port are those that the browser was given.
   bool is_own(const std::string& host) const {
     return host == fmt::format("127.0.0.1:{}", port_) || host == fmt::format("localhost:{}", port_);
   }
@@ -85,6 +87,7 @@ class Door {
 
 }  // namespace
 
+// The address is the only line on stdout, so that a script can read it.
 int serve(const std::string& folder, int port) {
   const http::Functions& server = http::load();
   const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
