@@ -26,6 +26,7 @@ double now() {
 }
 
 // Folders below a run that hold the journal of a solve.
+// The journals of solves are found by their name: which steps a sweep has, langer-plan knows alone.
 void find_journals(const ServedFolder& folder, const std::string& at, int depth,
                    std::vector<std::string>& found) {
   if (depth > deepest || found.size() >= most_series) return;
@@ -70,6 +71,7 @@ ProgressPoint progress_point(const StepRecord& step) {
 RunWatcher::RunWatcher(const ServedFolder& folder, std::string bin)
     : folder_(folder), bin_(std::move(bin)) {}
 
+// A run does not outlive the server: the thread ends when its program has ended.
 RunWatcher::~RunWatcher() {
   stop();
   if (thread_.joinable()) thread_.join();

@@ -246,6 +246,8 @@ std::vector<Summary> forecast(const SolveInputs& inputs, ModelChoice& model, Mes
 
 }  // namespace
 
+// The scene is made as langer-solve makes it, up to the first step. What fails after the body is
+// there, such as a motion that nothing restrains, is reported in addition to the picture.
 std::string scene_view(const std::string& pipeline_file, const std::string& run_folder) {
   const auto read = [](const std::string& path) {
     return load_yaml(path);

@@ -42,7 +42,10 @@ std::string header(const http::Request& request, const std::string& name) {
   return found->second;
 }
 
-// Who may ask.
+// Who may ask. A request is refused before its path is looked at
+//   403  if its Host is another name: a page of another site that was made to point here
+//   403  if its Origin is another page
+//   403  without the token
 class Door {
  public:
   Door(std::string token, ProjectApi& api) : token_(std::move(token)), api_(api) {}
