@@ -20,6 +20,7 @@ namespace {
 
 constexpr int grace = 30;  // tenths of a second between SIGTERM and SIGKILL
 
+// Both ends are closed on exec: a program gets only the two that it writes to.
 struct Pipe {
   std::array<int, 2> end{-1, -1};
   Pipe() {
@@ -37,6 +38,7 @@ struct Pipe {
   }
 };
 
+// The exit code as a shell gives it.
 int code_of(int status) {
   if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
   return WEXITSTATUS(status);
@@ -44,6 +46,7 @@ int code_of(int status) {
 
 // The keeper: only calls that are safe after a fork of a program with threads. `life` ends when
 // the server does.
+// It notices the server's end within 0.02 s, and the program's end as soon.
 [[noreturn]] void keep(char* const* words, const char* folder, int life, int out, int err) {
   ::setpgid(0, 0);
   for (int fd = 3; fd < 1024; ++fd)
@@ -150,6 +153,7 @@ ChildResult run_child(const ChildCommand& command, double seconds, std::size_t l
   return result;
 }
 
+// LAUNCH and BIN would change which program the Makefile of a run starts.
 void prepare_environment(const std::string& bin) {
   const char* path = std::getenv("PATH");
   ::setenv("PATH", (bin + ":" + (path ? path : "/usr/bin:/bin")).c_str(), 1);

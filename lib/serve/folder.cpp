@@ -53,6 +53,13 @@ std::string refused_path(const std::string& relative) {
   return "";
 }
 
+std::string below(const std::string& project, const std::string& name) {
+  if (project.empty()) return name;
+  return project + "/" + name;
+}
+
+// The folder is opened once. All paths are walked from this descriptor, so that it stays the same
+// folder if its name is given to another one.
 ServedFolder::ServedFolder(const std::string& path) {
   std::error_code failed;
   fs::create_directories(path, failed);
@@ -111,6 +118,7 @@ std::string ServedFolder::read(const std::string& relative, std::size_t largest)
   return bytes;
 }
 
+// A path that is refused throws here, too: the answer "no" would hide an attempt.
 bool ServedFolder::has_file(const std::string& relative) const {
   const Open file{open_below(relative, O_RDONLY | O_NONBLOCK)};
   struct stat status {};
@@ -122,6 +130,7 @@ bool ServedFolder::has_folder(const std::string& relative) const {
   return folder.fd >= 0;
 }
 
+// Links are left out, and so is what has a name that would be refused.
 std::vector<std::string> ServedFolder::list(const std::string& relative, bool folders) const {
   std::vector<std::string> names;
   const int fd = open_below(relative, O_RDONLY | O_DIRECTORY);
@@ -151,11 +160,13 @@ std::vector<std::string> ServedFolder::folders(const std::string& relative) cons
   return list(relative, true);
 }
 
+// Written through <name>.part and a rename, so that a reader never sees half a file.
 void ServedFolder::replace(const std::string& relative, const std::string& text) const {
   if (!has_file(relative)) refuse(relative, "there is no such file");
   write_text_file(absolute(relative), text);
 }
 
+// Nothing that exists is replaced, also no empty file.
 void ServedFolder::create(const std::string& relative, const std::string& bytes) const {
   const Open there{open_below(relative, O_RDONLY | O_NONBLOCK)};
   if (there.fd >= 0) refuse(relative, "is there already");

@@ -39,6 +39,9 @@ class ServedFolder {
   int fd_ = -1;
 };
 
+// "skin/solve.yaml" of a project "skin"; the name itself if the project is the served folder.
+std::string below(const std::string& project, const std::string& name);
+
 // Why such a path is refused; empty if it may be walked.
 std::string refused_path(const std::string& relative);
 

@@ -4,6 +4,7 @@
 
 namespace langer {
 
+// three.js and its controls are those of the reports, so the program has them once.
 const std::vector<PageFile>& page_files() {
   constexpr const char* script = "text/javascript; charset=utf-8";
   static const std::vector<PageFile> files = {

@@ -30,6 +30,7 @@ using report::words;
 
 namespace {
 
+// Bounds of what one request may take.
 constexpr std::size_t largest_order = 1 << 20;  // bytes of JSON
 constexpr std::size_t largest_yaml = 1 << 20;
 constexpr std::size_t largest_shown = 64 << 20;   // of a result that is sent to the browser
@@ -37,8 +38,10 @@ constexpr std::size_t largest_scene = 128 << 20;  // of what langer serve --scen
 constexpr double longest_check = 60;              // [s]
 constexpr double longest_scene = 300;
 
-Json unchanged(const Json& j) { return j; }
+// For lists whose items are JSON already.
+Json as_json(const Json& j) { return j; }
 
+// Ends the request with a message for the page.
 [[noreturn]] void refuse(const std::string& what, const std::string& found) {
   throw Failure(Exit::input, Error{{what}, "", found, "", ""});
 }
@@ -50,6 +53,7 @@ Reply problem(int status, const std::string& message) {
   return {status, "application/json", object({{"problem", words(message)}}).text, {}};
 }
 
+// A part of the address behind "?"; empty if it is not there.
 std::string asked(const Request& request, const std::string& key) {
   const auto found = request.query.find(key);
   if (found == request.query.end()) return "";
@@ -64,6 +68,7 @@ Tree order_of(const Request& request) {
   return tree;
 }
 
+// A text of an order that must be there, and one that may be missing.
 std::string text_of(const Tree& order, const std::string& key) {
   const Tree* value = order.find(key);
   if (!value || value->kind != Tree::Kind::scalar)
@@ -83,13 +88,9 @@ std::string checked_project(const std::string& project) {
   return project;
 }
 
-std::string below(const std::string& project, const std::string& name) {
-  if (project.empty()) return name;
-  return project + "/" + name;
-}
-
 bool is_yaml(const std::string& name) { return fs::path(name).extension() == ".yaml"; }
 
+// A YAML file as the form reads it: every part with its place, by which messages find their field.
 Json tree_json(const Tree& tree) {
   std::vector<std::pair<const char*, Json>> parts;
   switch (tree.kind) {
@@ -119,6 +120,7 @@ Json tree_json(const Tree& tree) {
   return object(parts);
 }
 
+// What a browser may show. Everything else is offered as a download.
 const std::vector<std::pair<std::string, std::string>>& media_types() {
   static const std::vector<std::pair<std::string, std::string>> types = {
       {".html", "text/html; charset=utf-8"},
@@ -137,6 +139,7 @@ ProjectApi::ProjectApi(const ServedFolder& folder, const std::string& bin,
                        std::function<bool()> ends)
     : folder_(folder), bin_(bin), ends_(std::move(ends)), run_(folder, bin) {}
 
+// A message instead of an exception. What a person can mend has the status 400.
 Reply ProjectApi::reply(const Request& request, const std::string& path) {
   try {
     return answer(request, path);
@@ -147,6 +150,7 @@ Reply ProjectApi::reply(const Request& request, const std::string& path) {
   }
 }
 
+// Pages and questions are asked by GET, which changes nothing. What writes or runs is a POST.
 Reply ProjectApi::answer(const Request& request, const std::string& path) {
   const bool post = request.method == "POST";
   const auto is = [&](const char* name, bool by_post) {
@@ -224,12 +228,12 @@ std::string ProjectApi::state(const std::string& project) const {
     }
   }
   return object({{"folder", words(folder_.path())},
-                 {"projects", list(projects, unchanged)},
+                 {"projects", list(projects, as_json)},
                  {"starters", list(starter_names(), words)},
                  {"here", Json{here ? "true" : "false"}},
-                 {"files", list(files, unchanged)},
-                 {"data", list(data, unchanged)},
-                 {"nodes", list(nodes, unchanged)},
+                 {"files", list(files, as_json)},
+                 {"data", list(data, as_json)},
+                 {"nodes", list(nodes, as_json)},
                  {"problem", words(wrong)},
                  {"report",
                   Json{folder_.has_file(below(project, "run/report/report.html")) ? "true"
@@ -257,6 +261,7 @@ std::string ProjectApi::file(const std::string& project, const std::string& name
       .text;
 }
 
+// The text is read again for each edit: it may have been changed in an editor meanwhile.
 void ProjectApi::edit(const Tree& order) {
   const std::string name = text_of(order, "file");
   const std::string path = below(checked_project(text_or_empty(order, "project")), name);
@@ -282,6 +287,7 @@ void ProjectApi::write(const Tree& order) {
   folder_.replace(path, text);
 }
 
+// The folder must be new or empty; write_starter() refuses any other.
 void ProjectApi::make_new(const Tree& order) {
   const std::string starter = text_of(order, "starter");
   const std::string name = text_of(order, "name");

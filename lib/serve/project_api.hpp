@@ -27,6 +27,9 @@
 
 namespace langer {
 
+// Answers the requests of the page. Requests come from several threads: those that write wait for
+// each other, and the run has a lock of its own. Programs run in processes of their own, so that a
+// body that is too large, or a file that crashes a library, ends only the answer.
 class ProjectApi {
  public:
   ProjectApi(const ServedFolder& folder, const std::string& bin, std::function<bool()> ends);

@@ -19,12 +19,14 @@ constexpr std::size_t longest_log = 200'000;  // bytes; the beginning is cut off
 constexpr int deepest = 6;                    // folders of a sweep in each other
 constexpr std::size_t most_series = 40;       // curves that the page shows
 
+// A clock that is never set back [s].
 double now() {
   using Clock = std::chrono::steady_clock;
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
 // Folders below a run that hold the journal of a solve.
+// The journals of solves are found by their name: which steps a sweep has, langer-plan knows alone.
 void find_journals(const ServedFolder& folder, const std::string& at, int depth,
                    std::vector<std::string>& found) {
   if (depth > deepest || found.size() >= most_series) return;
@@ -32,11 +34,6 @@ void find_journals(const ServedFolder& folder, const std::string& at, int depth,
     if (name == "solution.h5.steps") found.push_back(at);
   for (const std::string& name : folder.folders(at))
     find_journals(folder, at + "/" + name, depth + 1, found);
-}
-
-std::string below(const std::string& project, const std::string& name) {
-  if (project.empty()) return name;
-  return project + "/" + name;
 }
 
 }  // namespace
@@ -74,11 +71,13 @@ ProgressPoint progress_point(const StepRecord& step) {
 RunWatcher::RunWatcher(const ServedFolder& folder, std::string bin)
     : folder_(folder), bin_(std::move(bin)) {}
 
+// A run does not outlive the server: the thread ends when its program has ended.
 RunWatcher::~RunWatcher() {
   stop();
   if (thread_.joinable()) thread_.join();
 }
 
+// The thread outlives the request that starts it. Its end is the state that the page asks for.
 void RunWatcher::start(const std::string& project) {
   const std::lock_guard lock(mutex_);
   if (state_ == "running")
@@ -121,12 +120,14 @@ bool RunWatcher::is_running(const std::string& project) {
   return state_ == "running" && project_ == project;
 }
 
+// The beginning of a long log is dropped; the files *.log in the run's folder have all of it.
 void RunWatcher::add_log(std::string_view text) {
   const std::lock_guard lock(mutex_);
   log_ += text;
   if (log_.size() > longest_log) log_.erase(0, log_.size() - longest_log / 2);
 }
 
+// Runs one program and looks for new steps of solves while it works.
 int RunWatcher::command(const std::vector<std::string>& words, const std::string& project) {
   double looked = 0;
   return run_child({words, folder_.absolute(project)}, [&](bool, std::string_view text) {
@@ -176,6 +177,7 @@ void RunWatcher::follow() {
   }
 }
 
+// Columns instead of points: the page draws any of them over any other.
 std::string RunWatcher::progress(const std::string& project) {
   using namespace report;
   const std::lock_guard lock(mutex_);

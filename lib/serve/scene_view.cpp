@@ -57,12 +57,14 @@ struct SolveInputs {
   std::string law;            // where the material comes from
 };
 
+// The step that makes an input; nullptr for a file that is there.
 const Step* maker_of(const std::vector<Step>& steps, const StepInput& input) {
   for (const Step& step : steps)
     if (input.made && step.output() == input.path) return &step;
   return nullptr;
 }
 
+// Mesh and material of other nodes become keys of the config, so that nothing has to be made.
 SolveInputs inputs_of(const Step& solve, const std::vector<Step>& steps,
                       const std::string& run_folder) {
   SolveInputs inputs;
@@ -98,6 +100,7 @@ struct Skin {
   std::vector<int> cell;
 };
 
+// A cell of second order has several facets on the surface, each with corners of its own.
 Skin skin_of(const Mesh& mesh) {
   const Mesh simple = between_nodes(mesh);
   const int parts = simple.n_cells() / mesh.n_cells();
@@ -140,6 +143,7 @@ bool covers(const Mesh& mesh, const std::vector<bool>& in, const std::array<int,
   return behind || !mesh.section;
 }
 
+// A set is drawn by its facets; one without facets, such as a point, by its nodes.
 Json sets_view(const Mesh& mesh, const Skin& skin) {
   std::vector<Json> sets;
   for (const auto& [name, nodes] : mesh.node_sets) {
@@ -161,6 +165,7 @@ Json sets_view(const Mesh& mesh, const Skin& skin) {
   return list(sets, unchanged);
 }
 
+// Each indenter as triangles at its start, and its way. Under force control the way is not known.
 Json indenters_view(const Scene& scene, const Mesh& mesh) {
   Shown region = shown_of(mesh);
   region.parts = 24;
@@ -241,6 +246,8 @@ std::vector<Summary> forecast(const SolveInputs& inputs, ModelChoice& model, Mes
 
 }  // namespace
 
+// The scene is made as langer-solve makes it, up to the first step. What fails after the body is
+// there, such as a motion that nothing restrains, is reported in addition to the picture.
 std::string scene_view(const std::string& pipeline_file, const std::string& run_folder) {
   const auto read = [](const std::string& path) {
     return load_yaml(path);

@@ -35,13 +35,17 @@ bool same_token(const std::string& given, const std::string& token) {
   return difference == 0;
 }
 
+// A header of the request; empty if it is not there.
 std::string header(const http::Request& request, const std::string& name) {
   const auto found = request.header.find(name);
   if (found == request.header.end()) return "";
   return found->second;
 }
 
-// Who may ask.
+// Who may ask. A request is refused before its path is looked at
+//   403  if its Host is another name: a page of another site that was made to point here
+//   403  if its Origin is another page
+//   403  without the token
 class Door {
  public:
   Door(std::string token, ProjectApi& api) : token_(std::move(token)), api_(api) {}
@@ -65,6 +69,7 @@ class Door {
   ProjectApi& api_;
   int port_ = 0;
 
+  // Whether a name and port are those that the browser was given.
   bool is_own(const std::string& host) const {
     return host == fmt::format("127.0.0.1:{}", port_) || host == fmt::format("localhost:{}", port_);
   }
@@ -85,6 +90,7 @@ class Door {
 
 }  // namespace
 
+// The address is the only line on stdout, so that a script can read it.
 int serve(const std::string& folder, int port) {
   const http::Functions& server = http::load();
   const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();

@@ -30,6 +30,7 @@ class Editor {
 
   const Tree& root() const { return root_; }
 
+  // Walks down to the part; what is missing at the end of the path is added to its parent.
   std::string set(const std::vector<PathStep>& path, const std::string& value) {
     std::size_t n = 0;
     const Tree* parent = &root_;
@@ -49,6 +50,7 @@ class Editor {
     return added(*parent, parent_range, flow, column, path[n], value);
   }
 
+  // Walks down to the part and takes it out, with what separates it from its siblings.
   std::string removed(const std::vector<PathStep>& path) {
     const Tree* parent = &root_;
     Range range = whole();
@@ -88,6 +90,7 @@ class Editor {
   }
 
   Range whole() const { return {skip_to_content(0), text_.size()}; }
+  // The byte of a line and column of the parser, which counts bytes.
   std::size_t offset(const Place& place) const {
     if (place.line < 1 || place.line > static_cast<int>(lines_.size())) refuse("it has no place");
     return lines_[static_cast<std::size_t>(place.line - 1)] +
@@ -119,6 +122,7 @@ class Editor {
     return i;
   }
 
+  // Whether a part is written in brackets; all its parts then are, too.
   bool is_flow(const Tree& tree, const Range& range) const {
     if (tree.kind != Tree::Kind::map && tree.kind != Tree::Kind::list) return false;
     const char first = at(range.begin);
@@ -162,6 +166,7 @@ class Editor {
     }
     refuse("a bracket is not closed");
   }
+  // Behind a text without quotes. In a flow part it ends at a comma or a bracket, too.
   std::size_t behind_plain(std::size_t i, bool flow) const {
     std::size_t end = i;
     for (; end < text_.size() && text_[end] != '\n'; ++end) {
@@ -174,6 +179,7 @@ class Editor {
     return end;
   }
 
+  // Behind the colon of the key that begins at i.
   std::size_t behind_key(std::size_t i) const {
     if (at(i) == '"' || at(i) == '\'') {
       i = behind_quotes(i);
@@ -282,6 +288,7 @@ class Editor {
     return step.key + ": " + value;
   }
 
+  // A new entry: before the closing bracket, or on a line behind the last entry, indented alike.
   std::string added(const Tree& parent, const Range& range, bool flow, int column,
                     const PathStep& step, const std::string& value) const {
     const bool empty = parent.map.empty() && parent.list.empty();
@@ -292,7 +299,8 @@ class Editor {
     const std::string text = entry(step, value);
     if (parent.kind == Tree::Kind::null) {
       if (&parent == &root_) return text_ + text + "\n";
-      return replaced(range, (list ? "[" : "{") + text + (list ? "]" : "}"));
+      if (list) return replaced(range, "[" + text + "]");
+      return replaced(range, "{" + text + "}");
     }
     if (flow || is_flow(parent, range)) {
       // behind the last part, so that a comment behind it stays where it is
@@ -317,8 +325,9 @@ class Editor {
     std::size_t end = range.end;
     if (&parent == &root_) end = behind_block(range.begin, -1, false);
     end = line_end(end);
-    const std::string line =
-        std::string(static_cast<std::size_t>(indent), ' ') + (list ? "- " : "") + text;
+    std::string line(static_cast<std::size_t>(indent), ' ');
+    if (list) line += "- ";
+    line += text;
     return text_.substr(0, end) + "\n" + line + text_.substr(end);
   }
 
@@ -340,6 +349,7 @@ class Editor {
     return last;
   }
 
+  // In brackets the comma goes as well; elsewhere the lines of the part, with their comments.
   std::string without(const Tree& parent, const Tree& child, const PathStep& step,
                       const Range& parent_range, const Range& value, bool flow) const {
     const std::size_t n = std::max(parent.map.size(), parent.list.size());
@@ -380,6 +390,7 @@ class Editor {
   }
 };
 
+// Whether two trees have the same values; places and quotes do not count.
 bool same(const Tree& a, const Tree& b) {
   if (a.kind != b.kind || a.scalar != b.scalar) return false;
   if (a.list.size() != b.list.size() || a.map.size() != b.map.size()) return false;

@@ -18,6 +18,7 @@ namespace {
 
 }  // namespace
 
+// The module stays loaded until the program ends.
 const Functions& load() {
   const std::string path = module_path("http");
   std::error_code none;

@@ -12,6 +12,7 @@ namespace langer::http {
 
 namespace {
 
+// A repeated header is joined, so that a second Host cannot hide behind the first.
 Request request_of(const httplib::Request& from) {
   Request request;
   request.method = from.method;
