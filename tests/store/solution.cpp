@@ -276,3 +276,28 @@ TEST_CASE("a record that does not fit is refused before anything is written") {
   writer.finish();
   CHECK(example::same(SolutionReader(path).step(1), step(1, true)));
 }
+
+TEST_CASE("without fibres a solution holds frames only where a mesh turns them") {
+  for (bool turned : {false, true})
+    for (bool fibres : {false, true}) {
+      CAPTURE(turned);
+      CAPTURE(fibres);
+      SolutionHeader h = header(false);
+      if (!turned) h.mesh.frames.assign(2, Mat3::Identity());
+      if (!fibres) h.material.fibres.clear();
+      const std::string path = example::folder("frames") + "/solution.h5";
+      {
+        SolutionWriter writer(path, h);
+        for (int i = 0; i < 2; ++i) writer.append(step(i, false));
+        writer.finish();
+      }
+      const h5::Group grid = h5::File::open(path).root().group("VTKHDF");
+      for (const char* axis : {"e_x", "e_y", "e_z"}) {
+        CHECK(grid.group("CellData").has(axis) == (turned || fibres));
+        CHECK(grid.group("Steps").group("CellDataOffsets").has(axis) == (turned || fibres));
+      }
+      const SolutionReader reader(path);
+      CHECK(reader.header().mesh.frames == h.mesh.frames);
+      CHECK(example::same(reader.step(1), step(1, false)));
+    }
+}

@@ -126,7 +126,11 @@ const std::vector<EarlierRun>& SolutionWriter::earlier() const {
 void SolutionWriter::State::begin() {
   const h5::Group root = file.root();
   write_identity(root, schema_of(solution_schema, header.mesh), header.identity);
-  const h5::Group grid = write_grid(root, header.mesh, {2, 0});
+  // Frames say where fibres lie: without fibres they are written only where a mesh turns them.
+  const std::vector<Material> laws = header.laws();
+  const bool fibres = std::any_of(laws.begin(), laws.end(),
+                                  [](const Material& law) { return !law.fibres.empty(); });
+  const h5::Group grid = write_grid(root, header.mesh, {2, 0}, fibres || has_frames(header.mesh));
   write_sets(root, header.mesh);
   write_section(root, header.mesh);
   write_hanging(root, header.mesh);

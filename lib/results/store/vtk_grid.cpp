@@ -70,7 +70,8 @@ std::vector<Vec3> vectors(const std::vector<double>& flat) {
 }
 
 // The arrays that VTK asks for, then body and frame of each element as fields of elements.
-h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& version) {
+h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& version,
+                     bool with_frames) {
   const h5::Group grid = root.make_group("VTKHDF");
   grid.attribute("Version", version);
   grid.attribute("Type", std::string("UnstructuredGrid"));
@@ -94,12 +95,17 @@ h5::Group write_grid(const h5::Group& root, const Mesh& mesh, const Integers& ve
   std::string names;
   for (const std::string& body : mesh.bodies) append(names, " ", body);
   cells.annotate("body", "names", names);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && with_frames; ++i) {
     std::vector<Vec3> column;
     for (const Mat3& frame : mesh.frames) column.push_back(frame.col(i));
     cells.write<double>(axes[i], {e, 3}, flat(column), "-");
   }
   return grid;
+}
+
+bool has_frames(const Mesh& mesh) {
+  return std::any_of(mesh.frames.begin(), mesh.frames.end(),
+                     [](const Mat3& frame) { return frame != Mat3::Identity(); });
 }
 
 // Node sets as numbers of nodes, facet sets as pairs of element and local facet.
@@ -213,10 +219,14 @@ Mesh read_grid(const h5::Group& root) {
   std::istringstream names(cells.annotation("body", "names"));
   for (std::string name; names >> name;) mesh.bodies.push_back(name);
   mesh.body = indices(cells, "body", {e}, static_cast<std::int64_t>(mesh.bodies.size()));
+  // Without frames all are the global axes.
+  mesh.frames.assign(e, Mat3::Identity());
+  const bool framed = std::any_of(std::begin(axes), std::end(axes),
+                                  [&](const auto& axis) { return cells.has(axis); });
   std::vector<double> columns[3];
-  for (int i = 0; i < 3; ++i) columns[i] = cells.read_finite(axes[i], {e, 3});
-  for (std::size_t i = 0; i < e; ++i)
-    mesh.frames.push_back(orthonormal(cells, columns, static_cast<int>(i)));
+  for (int i = 0; i < 3 && framed; ++i) columns[i] = cells.read_finite(axes[i], {e, 3});
+  for (std::size_t i = 0; i < e && framed; ++i)
+    mesh.frames[i] = orthonormal(cells, columns, static_cast<int>(i));
 
   // Sets of nodes, and of facets as pairs of element and local facet.
   const h5::Group sets = root.group("sets");

@@ -14,9 +14,11 @@
 namespace langer {
 
 // Writes /VTKHDF with Version [1, minor...], the geometry, the body and the frame of each
-// element; returns the group.
+// element; returns the group. Without frames they are the global axes.
 h5::Group write_grid(const h5::Group& root, const Mesh& mesh,
-                     const std::vector<std::int64_t>& version);
+                     const std::vector<std::int64_t>& version, bool with_frames = true);
+// Whether a frame is anything but the global axes.
+bool has_frames(const Mesh& mesh);
 void write_sets(const h5::Group& root, const Mesh& mesh);
 void write_section(const h5::Group& root, const Mesh& mesh);  // nothing for a body
 void write_hanging(const h5::Group& root, const Mesh& mesh);  // nothing without hanging nodes

@@ -57,8 +57,13 @@ namespace {
 // Cauchy stress, and I4_bar of the first fibre family.
 void add_cell_fields(StepRecord& record, const Assembler& body, const VecX& u) {
   const int n = body.mesh().n_cells();
+  // a first family without direction (kappa = 1/3) has no stretch
   bool fibres = false;
-  for (int e = 0; e < n; ++e) fibres = fibres || !body.fibres(e).empty();
+  for (int e = 0; e < n; ++e) {
+    if (body.fibres(e).empty()) continue;
+    const std::vector<Fibre>& families = body.material(e).fibres;
+    fibres = fibres || families.empty() || 1 - 3 * families[0].kappa > 1e-12;
+  }
   for (const char* name : {"J", "pressure", "von_mises"}) record.cell_fields[name].resize(n);
   if (fibres) record.cell_fields["I4_bar"].resize(n);
   std::vector<double>& J = record.cell_fields["J"];
