@@ -100,8 +100,8 @@ Finding programs(const fs::path& bin) {
       fmt::format("missing in {}:{}; build or install Langer as a whole", bin.string(), missing)};
 }
 
-// A library that is loaded at run time by a module of Langer (gmsh, PETSc, cpp-httplib). It may be missing
-// although the module is there; ldd shows that.
+// A library that is loaded at run time by a module of Langer (gmsh, PETSc, cpp-httplib). It may be
+// missing although the module is there; ldd shows that.
 Finding module(const std::string& name, const std::string& without, const std::string& package) {
   const std::string path = module_path(name);
   if (!fs::exists(path)) return {name, false, false, without + "; there is no " + path};

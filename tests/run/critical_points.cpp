@@ -312,7 +312,8 @@ TEST_CASE("cap: arc length passes both limit points at little cost, and stops no
   const std::vector<double> negative = found.history("negative_eigenvalues");
   if (std::getenv("SHOW"))
     for (std::size_t i = 0; i < load.size(); ++i)
-      fmt::print("{} {} {} {} {}\n", found.steps[i].t, load[i], found.steps[i].u[0][1], negative[i], found.steps[i].iterations);
+      fmt::print("{} {} {} {} {}\n", found.steps[i].t, load[i], found.steps[i].u[0][1], negative[i],
+                 found.steps[i].iterations);
   int turns = 0;
   for (std::size_t i = 1; i + 1 < load.size(); ++i)
     turns += (load[i + 1] - load[i]) * (load[i] - load[i - 1]) < 0;
@@ -337,7 +338,8 @@ TEST_CASE("cap: arc length passes both limit points at little cost, and stops no
   CHECK(found.critical->load_factor == near(greatest, 0.005));
 
   // below it given pressures find the equilibria of the same path
-  const Followed pushed = followed(cap_under(0.9 * greatest) + "path: {first: 0.1, largest: 0.1}\n");
+  const Followed pushed =
+      followed(cap_under(0.9 * greatest) + "path: {first: 0.1, largest: 0.1}\n");
   REQUIRE(pushed.complete);
   CHECK(pushed.history("negative_eigenvalues").back() == 0);
 }

@@ -52,7 +52,7 @@ struct Softest {
 Softest softest_of(Run& run) {
   Softest softest;
   const Dofs& own = run.body.dofs();
-  const std::vector<Mode> modes = softest_modes(
+  const std::vector<SoftMode> modes = softest_modes(
       run.body.pattern(), run.statics.constrained_tangent(), 1, run.statics.volume_gradients(), 1);
   if (!modes.empty()) softest = {modes[0].eigenvalue, 0, own, on_all_dofs(own, modes[0].shape)};
   int kind = 0;
@@ -60,7 +60,7 @@ Softest softest_of(Run& run) {
     ++kind;
     OtherTangent other = run.body.tangent_under(std::move(dofs));
     if (other.pattern.n == 0) continue;
-    const std::vector<Mode> found =
+    const std::vector<SoftMode> found =
         softest_modes(other.pattern, run.statics.constrained_tangent(other), 1, {}, 1);
     if (found.empty() || std::abs(found[0].eigenvalue) >= std::abs(softest.eigenvalue)) continue;
     softest = {found[0].eigenvalue, kind, other.dofs, on_all_dofs(other.dofs, found[0].shape)};
@@ -281,8 +281,8 @@ std::string CriticalPoint::words() const {
 }
 
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
-                                                   const StateOnPath& first, const StateOnPath& last,
-                                                   bool with_breaking) {
+                                                   const StateOnPath& first,
+                                                   const StateOnPath& last, bool with_breaking) {
   std::optional<SymmetryBreaking> breaking;
   if (with_breaking) breaking = breaking_of(run);
   const double t_now = run.t();
@@ -340,8 +340,8 @@ std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& 
 std::vector<VecX> modes_of(Run& run, int n) {
   const Dofs& dofs = run.body.dofs();
   std::vector<VecX> shapes;
-  for (const Mode& mode : softest_modes(run.body.pattern(), run.statics.constrained_tangent(), n,
-                                        run.statics.volume_gradients(), 1)) {
+  for (const SoftMode& mode : softest_modes(run.body.pattern(), run.statics.constrained_tangent(),
+                                            n, run.statics.volume_gradients(), 1)) {
     VecX u = on_all_dofs(dofs, mode.shape);
     double largest = 0;
     Vec3 leading = Vec3::Zero();

@@ -47,8 +47,8 @@ struct StateOnPath {
 // reduced body are counted. The run is left where it was. Nothing where the change is not found
 // again.
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
-                                                   const StateOnPath& first, const StateOnPath& last,
-                                                   bool breaking);
+                                                   const StateOnPath& first,
+                                                   const StateOnPath& last, bool breaking);
 // The point at which a path under given loads ended, of which the last state is known only: within
 // `left` of the path after it there is no equilibrium.
 std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,

@@ -58,8 +58,8 @@ struct MixedResult : MixedState {
   MatX beta_covariance;                 // (k, k)
   // Of the logarithm of each standard deviation, and of artanh of each correlation: standard
   // errors from Fisher's information. NaN where a number does not vary.
-  VecX log_deviation_error;   // (q)
-  MatX correlation_error;     // (q, q)
+  VecX log_deviation_error;     // (q)
+  MatX correlation_error;       // (q, q)
   std::vector<MatX> explained;  // (q, q) covariance of the modes b_i of each specimen
   int values = 0;
   int likelihood_parameters = 0;  // in beta, Omega and sigma

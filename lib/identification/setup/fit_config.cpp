@@ -384,8 +384,9 @@ std::vector<Complaint> FitConfig::complaints() const {
   std::vector<Complaint> all = comparison_complaints(*this);
   if (data.empty()) all.push_back({"data", "missing", "one test at least", ""});
   if (law.matrix.empty() && all.empty())
-    all.push_back({"law", "missing", "a map (energy terms, fibre angles and the numbers that are not "
-                                     "fitted)",
+    all.push_back({"law", "missing",
+                   "a map (energy terms, fibre angles and the numbers that are not "
+                   "fitted)",
                    "or laws: [yeoh, hgo_yeoh, goh]"});
   if (parameters.empty() && all.empty())
     all.push_back({"parameters", "an empty list", "one number to find at least", ""});

@@ -94,12 +94,13 @@ std::optional<VecX> Statics::correction() {
     return std::nullopt;
   // Supporting springs change the tangent too much to reuse its factor. The displacement
   // formulation has no mixed equations in which an old tangent could stand for the new one.
-  // Without contact an indefinite tangent is factorized as it is, between the limit points of an arc.
+  // Without contact an indefinite tangent is factorized as it is, between the limit points of an
+  // arc.
   const bool as_it_is =
       factor_.kind() == TangentFactor::Kind::whole ||
       (bordered() && contacts_.empty() && factor_.kind() == TangentFactor::Kind::indefinite);
-  factor_serves_ = !iterative() && as_it_is &&
-                   equilibrium_.formulation() != Formulation::displacement;
+  factor_serves_ =
+      !iterative() && as_it_is && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   if (contact_in_tangent()) return du;
   return solve_condensed(rhs);

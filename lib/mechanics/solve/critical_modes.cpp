@@ -24,8 +24,8 @@ void orthonormalize(MatX& X) {
 
 }  // namespace
 
-std::vector<Mode> softest_modes(const Pattern& pattern, const std::vector<double>& K, int n,
-                                const std::vector<VecX>& held, int threads) {
+std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<double>& K, int n,
+                                    const std::vector<VecX>& held, int threads) {
   LinearSolver solver(pattern, {}, threads);
   if (!solver.factorize(K) && !solver.factorize_indefinite(K)) return {};
   const Eigen::Index rows = pattern.n;
@@ -85,7 +85,7 @@ std::vector<Mode> softest_modes(const Pattern& pattern, const std::vector<double
     before = values;
     if (change < 1e-10 && iteration > 2) break;
   }
-  std::vector<Mode> modes;
+  std::vector<SoftMode> modes;
   for (Eigen::Index c = 0; c < std::min<Eigen::Index>(n, size); ++c)
     modes.push_back({1 / before[c], X.col(c)});
   return modes;

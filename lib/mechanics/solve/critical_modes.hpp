@@ -10,7 +10,7 @@
 
 namespace langer {
 
-struct Mode {
+struct SoftMode {
   double eigenvalue = 0;  // [N/mm]
   VecX shape;             // on the rows of K, norm 1
 };
@@ -18,7 +18,7 @@ struct Mode {
 // The n modes of the tangent with the smallest magnitude of the eigenvalue, that first. held:
 // directions that must not move (forces of unit pressure where a volume is given). Empty where K is
 // singular to the last digit.
-std::vector<Mode> softest_modes(const Pattern& pattern, const std::vector<double>& K, int n,
-                                const std::vector<VecX>& held, int threads);
+std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<double>& K, int n,
+                                    const std::vector<VecX>& held, int threads);
 
 }  // namespace langer

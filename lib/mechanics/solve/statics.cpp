@@ -140,8 +140,7 @@ VecX Statics::reactions() const {
     for (std::size_t i = 0; i < r_[k].size(); ++i)
       out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
   if (!bonds_.none()) bonds_.add_forces(out);
-  if (!bodies_.empty())
-    bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), out);
+  if (!bodies_.empty()) bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), out);
   return out;
 }
 

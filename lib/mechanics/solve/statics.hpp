@@ -68,8 +68,8 @@ struct StaticsOptions {
 
 class Statics {
  public:
-  Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
-          const StaticsOptions& options, std::vector<SurfaceContact> surfaces = {});
+  Statics(Assembler& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options,
+          std::vector<SurfaceContact> surfaces = {});
 
   void begin(double t);  // starts an increment to t: predicts its trial state
   // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
@@ -116,7 +116,7 @@ class Statics {
   const std::vector<RigidContact>& contacts() const { return contacts_; }
   // Deformable surfaces that touch: their reactions follow those of the indenters in BodyState::r.
   const std::vector<SurfaceContact>& surfaces() const { return bodies_.surfaces(); }
-  std::vector<ContactDefect> surface_defects() const;  // as defects()
+  std::vector<ContactDefect> surface_defects() const;                    // as defects()
   const std::vector<std::vector<MortarNode>>& surface_averages() const;  // of the trial
   // of each pair the deepest node of either side inside the facets of the other [mm]
   std::vector<double> surface_penetrations() const;
@@ -132,8 +132,8 @@ class Statics {
   // them: one factorization each, by the solvers that are kept for the next state.
   Signature signature_under(std::span<OtherTangent> others,
                             std::vector<std::unique_ptr<LinearSolver>>& solvers);
-  // The tangent of which signature() counts the negative eigenvalues, at the accepted state: contacts
-  // as stiff springs. For bodies whose tangent has a factor.
+  // The tangent of which signature() counts the negative eigenvalues, at the accepted state:
+  // contacts as stiff springs. For bodies whose tangent has a factor.
   std::vector<double> constrained_tangent();
   std::vector<double> constrained_tangent(OtherTangent& other);
   // Forces of 1 MPa on each surface of a given volume, on the free rows.
@@ -244,11 +244,11 @@ class Statics {
     VecX towards;     // of the beginning; may be empty
   };
   std::optional<Arc> arc_;
-  double t_next_ = 0;             // what the last linear solve adds to t
-  VecX rates_;                    // (3 n) of imposed displacements, per t
-  VecX p_, p_next_;               // pressures of given volumes on trial, and what is added [MPa]
-  std::vector<VecX> columns_;     // (free) forces per unknown of the border
-  std::vector<VecX> gradients_;   // (3 n) of each given volume
+  double t_next_ = 0;            // what the last linear solve adds to t
+  VecX rates_;                   // (3 n) of imposed displacements, per t
+  VecX p_, p_next_;              // pressures of given volumes on trial, and what is added [MPa]
+  std::vector<VecX> columns_;    // (free) forces per unknown of the border
+  std::vector<VecX> gradients_;  // (3 n) of each given volume
   VecX dp_;  // of an iterative solution: change of the pressures [MPa]; else empty
   std::vector<VecX> u_start_;  // by contact, (3 n): what the increment's slip is measured from, the
                                // indenter where it began

@@ -3,12 +3,14 @@
 //
 // What forces on the contact nodes of both sides move them is known from the body's last factor:
 //   d = move + F s,   s = G dr + C' d          F: compliance of the contact nodes
-// with the forces G of the reactions on both sides, and C' the change of the present forces (normals
-// turn, weights change, and springs that support the tangent are taken out). The law sees q + L d:
+// with the forces G of the reactions on both sides, and C' the change of the present forces
+// (normals turn, weights change, and springs that support the tangent are taken out). The law sees
+// q + L d:
 //   x = q + L d,   d = (1 - F C')^-1 (move + F G dr)
 // which leaves one compliance W = L (1 - F C')^-1 F G, solved candidate by candidate with the cone
-// projection (contact/local_problem.hpp). A body that only contact holds has no such W: springs kappa
-// on the law's own directions make one, and are taken out again (contact/supported_problem.hpp).
+// projection (contact/local_problem.hpp). A body that only contact holds has no such W: springs
+// kappa on the law's own directions make one, and are taken out again
+// (contact/supported_problem.hpp).
 #pragma once
 
 #include <optional>

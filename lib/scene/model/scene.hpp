@@ -25,10 +25,10 @@ struct Scene {
       materials;            // one for each body of the mesh; families with c1 = 0 keep their place
   Directions directions{};  // of the fibres, in every cell
   Dofs dofs;
-  std::vector<SurfaceLoad> loads;      // empty: no code of loads runs
-  std::vector<RigidContact> contacts;  // empty: no contact code runs
+  std::vector<SurfaceLoad> loads;             // empty: no code of loads runs
+  std::vector<RigidContact> contacts;         // empty: no contact code runs
   std::vector<SurfaceContact> surfaces = {};  // deformable surfaces that touch
-  std::vector<TurnedSet> turned;       // their nodes are prescribed in dofs
+  std::vector<TurnedSet> turned;              // their nodes are prescribed in dofs
   std::vector<double> stops;  // values of t where an indenter turns, or a history has a kink
 
   int families()

@@ -28,8 +28,8 @@ Mesh mesh_of_bodies(const SolveConfig& config,
                     const std::function<Place(const std::string&)>& where);
 Mesh joined(const std::vector<std::pair<std::string, Mesh>>& bodies);
 
-// Adds scene.surfaces. Errors: a set without facets, surfaces that share nodes, bodies that overlap,
-// a body that only frictionless contact holds.
+// Adds scene.surfaces. Errors: a set without facets, surfaces that share nodes, bodies that
+// overlap, a body that only frictionless contact holds.
 void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                   const std::vector<Prescribed>& prescribed,
                   const std::function<Place(const std::string&)>& where,

@@ -93,9 +93,9 @@ struct ContactConfig {
       "node set that may touch the indenter; none: nodes of the boundary that it can reach. With `against`: the surface at whose "
       "nodes the contact law holds, the finer or softer one of the two");
     v(&ContactConfig::rigid, "rigid", unit::none,
-      "shape and place of the indenter; or `against` in its place");
+      "shape and place of the indenter; or `against` instead");
     v(&ContactConfig::against, "against", unit::none,
-      "the set of facets that `on` touches, in place of `rigid`: two deformable surfaces of hex8");
+      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -146,8 +146,8 @@ struct ContactConfig {
     std::vector<Complaint> found;
     const auto refuse = [&](bool given, const char* key, const char* hint) {
       if (given)
-        found.push_back({key, "found together with against", "a rigid indenter, or none of it",
-                         hint});
+        found.push_back(
+            {key, "found together with against", "a rigid indenter, or none of it", hint});
     };
     refuse(rigid.has_value(), "rigid", "a contact has either a rigid shape or a second surface");
     refuse(!motion.empty(), "motion", "`loads` and `supports` move the bodies");
@@ -157,9 +157,10 @@ struct ContactConfig {
     if (on.empty())
       found.push_back({"on", "missing", "the set that touches `against`", ""});
     else if (on == *against)
-      found.push_back({"against", "found the set of `on`", "the set of another surface",
-                       "a surface that touches itself is not computed yet: name two parts of it that "
-                       "share no node"});
+      found.push_back(
+          {"against", "found the set of `on`", "the set of another surface",
+           "a surface that touches itself is not computed yet: name two parts of it that "
+           "share no node"});
     return found;
   }
   std::vector<Complaint> of_rotation() const {
@@ -213,8 +214,8 @@ struct BodyConfig {
   }
 };
 
-// One of several bodies: its mesh, and what belongs to it alone. Names of its sets, points and layers
-// begin with its own: <body>_<set>.
+// One of several bodies: its mesh, and what belongs to it alone. Names of its sets, points and
+// layers begin with its own: <body>_<set>.
 struct SceneBodyConfig {
   MeshConfig mesh;
   std::optional<Material> material;
@@ -385,7 +386,7 @@ struct SolveConfig {
     v(&SolveConfig::materials, "materials", unit::none,
       "bodies of the mesh by name, each with its own material and fibres; the keys above stand for those not named");
     v(&SolveConfig::bodies, "bodies", unit::none,
-      "several bodies by name, each with its own mesh, in place of `mesh`; their sets are called <body>_<set>, such as skin_top");
+      "several bodies by name, each with its own mesh, instead of `mesh`; their sets are called <body>_<set>, such as skin_top");
     v(&SolveConfig::formulation, "formulation", unit::none,
       "how the dilatation enters an element; none: mean_dilatation in hex8, linear_dilatation in hex27 and tet15");
     v(&SolveConfig::supports, "supports", unit::none, "node sets that are held", required);
@@ -404,7 +405,7 @@ struct SolveConfig {
       "auto: where the equilibrium becomes unstable, the critical point is found to 1e-4 of the path, its kind is named (limit point of "
       "load, limit point of travel, bifurcation) and its mode written; nothing is done where all states are stable");
     v(&SolveConfig::branch, "branch", unit::none,
-      "follow: at the first bifurcation the path goes on along the mode; solves the whole body, once as far as there and once more");
+      "follow: at the first bifurcation the path continues along the mode; solves the whole body, once as far as there and once more");
     v(&SolveConfig::imperfection, "imperfection", unit::none,
       "moves the nodes of the mesh along a mode of the perfect body, which is solved as far as its first critical point before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
@@ -596,8 +597,8 @@ struct SolveConfig {
                          "a section vibrates within its plane only"});
       for (const auto& [name, contact] : contacts) {
         if (contact.adhesion)
-          found.push_back({key, "found together with contacts." + name + ".adhesion", "one of the two",
-                           "small movements of bonds are not linearised"});
+          found.push_back({key, "found together with contacts." + name + ".adhesion",
+                           "one of the two", "small movements of bonds are not linearised"});
       }
     };
     if (modes) look_at("modes");
@@ -639,12 +640,14 @@ struct SolveConfig {
       if (uncertainty)
         refuse(key, "uncertainty", "one of the two", "derivatives are those of given loads");
       if (reduce == Reduce::automatic)
-        refuse(key, "reduce: auto", "one of the two", "a section of its own: geometry: {section: ...}");
+        refuse(key, "reduce: auto", "one of the two",
+               "a section of its own: geometry: {section: ...}");
     }
     for (const std::string& key : {volume, std::string(path.arc_length ? "path.arc_length" : "")})
       if (!key.empty() && !contacts.empty())
-        refuse(key, "contacts", "a scene without indenters",
-               "its equation does not stand beside those of contact yet: hold or move sets of nodes");
+        refuse(
+            key, "contacts", "a scene without indenters",
+            "its equation cannot be solved together with those of contact yet: hold or move sets of nodes");
     if (!volume.empty() && path.arc_length)
       refuse("path.arc_length", "a given volume", "one of the two",
              "volumes grow where pressures turn back: no arc length is needed");
@@ -658,16 +661,18 @@ struct SolveConfig {
           refuse(at, "path.arc_length", "displacements and forces",
                  "a turn is not in proportion to the load factor");
       }
-    for (const std::string& key : {std::string(branch ? "branch" : ""),
-                                   std::string(imperfection ? "imperfection" : "")}) {
-      if (key.empty()) continue;
+    std::vector<std::string> of_modes;
+    if (branch) of_modes.emplace_back("branch");
+    if (imperfection) of_modes.emplace_back("imperfection");
+    for (const std::string& key : of_modes) {
       if (stability == StabilityCheck::off)
         refuse(key, "stability: off", "stability: auto", "critical points are where signs change");
       if (path.seconds) refuse(key, "path.seconds", "a path without", "elastic bodies have modes");
       if (!contacts.empty())
         refuse(key, "contacts", "a scene without indenters", "modes with contact are written only");
       if (symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none)
-        refuse(key, "symmetry", "symmetry: none or auto", "a mode may break it: the whole body is solved");
+        refuse(key, "symmetry", "symmetry: none or auto",
+               "a mode may break it: the whole body is solved");
       if (mesh && !mesh->cuts.empty())
         refuse(key, "mesh.cuts", "a mesh without cuts", "nodes that hang follow no mode");
     }

@@ -6,9 +6,9 @@
 #include "core/tensor/stress.hpp"
 #include "mechanics/material/at_rest.hpp"
 #include "results/store/material_file.hpp"
-#include "scene/run/surface_records.hpp"
 #include "scene/model/bond_records.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "scene/run/surface_records.hpp"
 
 namespace langer {
 

@@ -208,7 +208,8 @@ std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
     if (config.modes) record.modes = modes_record(config, run, density);
     if (config.harmonic) record.harmonic = harmonic_record(config, run, density, where);
   } catch (const std::invalid_argument& problem) {
-    refuse(where, "modes", std::string("found ") + problem.what(), "a state whose contact can be frozen");
+    refuse(where, "modes", std::string("found ") + problem.what(),
+           "a state whose contact can be frozen");
   } catch (const std::runtime_error& problem) {
     throw Failure(Exit::not_converged, Error{{}, "vibration", problem.what(), "", ""});
   }
