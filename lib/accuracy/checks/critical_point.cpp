@@ -304,6 +304,9 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
       low = std::move(middle);
     }
   }
+  // Along one path a small part of the increment brings a small part of its movement.
+  const double part = (high.t - low.t) / (last.t - first.t);
+  const double moved = (high.state.u - low.state.u).norm() / (last.state.u - first.state.u).norm();
   CriticalPoint point;
   point.t = 0.5 * (low.t + high.t);
   point.within = 0.5 * (high.t - low.t);
@@ -315,6 +318,7 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
   point.t_state = low.t;
   run.put_at(high.t, high.state, low.state);
   describe(run, high.state.u - low.state.u, point);
+  if (moved > 0.3 && moved > 10 * part) point.kind = "jump to another path";
   run.put_at(t_now, now, now);
   run.body.pressures_from(now.u);
   if (point.kind.empty()) return std::nullopt;
