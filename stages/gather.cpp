@@ -242,10 +242,11 @@ Sweep steps_of(const Job<GatherConfig>& job, const std::vector<SweepAxis>& axes,
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const auto found = std::ranges::find(columns, wanted[k], &Column::name);
       if (found == columns.end())
-        throw Failure(Exit::config,
-                      Error{job.where("columns"), "columns",
-                            fmt::format("{} has no column \"{}\"", inputs[i].path, wanted[k]),
-                            "one of " + list_words(known), did_you_mean(nearest(wanted[k], known))});
+        throw Failure(
+            Exit::config,
+            Error{job.where("columns"), "columns",
+                  fmt::format("{} has no column \"{}\"", inputs[i].path, wanted[k]),
+                  "one of " + list_words(known), did_you_mean(nearest(wanted[k], known))});
       SweepColumn& column = sweep.columns[k];
       column.unit = found->unit;
       column.values.insert(column.values.end(), found->values.begin(), found->values.end());
@@ -269,7 +270,8 @@ std::vector<Summary> gather_sweep(const Job<GatherConfig>& job) {
   for (const GatherAxis& a : config.axes)
     axes.push_back({a.name, a.unit, {}, a.samples.has_value()});
   const bool by_steps = config.rows == GatherRows::steps;
-  const std::vector<std::string> of_members = by_steps ? std::vector<std::string>{} : config.columns;
+  const std::vector<std::string> of_members =
+      by_steps ? std::vector<std::string>{} : config.columns;
   Sweep sweep = gather(of_members, axes, inputs, job.where("columns"));
 
   // Analyses of the members: effects of a design, or the spread over samples.

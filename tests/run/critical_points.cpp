@@ -334,7 +334,8 @@ TEST_CASE("cap: arc length passes both limit points at little cost, and stops no
   CHECK(found.critical->load_factor == near(greatest, 0.005));
 
   // below it given pressures find the equilibria of the same path
-  const Followed pushed = followed(cap_under(0.9 * greatest) + "path: {first: 0.1, largest: 0.1}\n");
+  const Followed pushed =
+      followed(cap_under(0.9 * greatest) + "path: {first: 0.1, largest: 0.1}\n");
   REQUIRE(pushed.complete);
   CHECK(pushed.history("negative_eigenvalues").back() == 0);
 }

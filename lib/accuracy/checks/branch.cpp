@@ -46,7 +46,7 @@ Branch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& config
   if (point.kind != "bifurcation")
     refuse_key(where, "branch", "the first critical point is no bifurcation: " + point.words(),
                "a bifurcation",
-               "path.arc_length goes on past a limit point, where no other path begins");
+               "path.arc_length continues past a limit point, where no other path begins");
   const std::vector<VecX> modes = modes_of(run, 1);
   if (modes.empty())
     refuse_key(where, "branch", "the tangent is singular to the last digit", "a mode",

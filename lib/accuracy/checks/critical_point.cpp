@@ -281,8 +281,8 @@ std::string CriticalPoint::words() const {
 }
 
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
-                                                   const StateOnPath& first, const StateOnPath& last,
-                                                   bool with_breaking) {
+                                                   const StateOnPath& first,
+                                                   const StateOnPath& last, bool with_breaking) {
   std::optional<SymmetryBreaking> breaking;
   if (with_breaking) breaking = breaking_of(run);
   const double t_now = run.t();

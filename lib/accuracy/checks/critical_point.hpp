@@ -20,11 +20,12 @@
 namespace langer {
 
 struct CriticalPoint {
-  double t = 0;                 // middle of the bracket
-  double within = 0;            // half of its length
-  double load_factor = 0;       // t itself but on paths with arc lengths
-  std::string kind;             // "limit point of load", "limit point of travel", "bifurcation", "jump to another path"
-  std::string symmetry;         // of the mode: "antisymmetric in x, symmetric in z"; may be empty
+  double t = 0;            // middle of the bracket
+  double within = 0;       // half of its length
+  double load_factor = 0;  // t itself but on paths with arc lengths
+  std::string kind;      // "limit point of load", "limit point of travel", "bifurcation", "jump to
+                         // another path"
+  std::string symmetry;  // of the mode: "antisymmetric in x, symmetric in z"; may be empty
   int before = 0, after = 0;    // negative eigenvalues
   std::vector<Vec3> mode;       // (n) of the whole body, the largest movement 1
   std::optional<double> angle;  // of the waves of the mode on the top face, from x towards z [deg]
@@ -47,8 +48,8 @@ struct StateOnPath {
 // reduced body are counted. The run is left where it was. Nothing where the change is not found
 // again.
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
-                                                   const StateOnPath& first, const StateOnPath& last,
-                                                   bool breaking);
+                                                   const StateOnPath& first,
+                                                   const StateOnPath& last, bool breaking);
 // The point at which a path under given loads ended, of which the last state is known only: within
 // `left` of the path after it there is no equilibrium.
 std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,

@@ -50,9 +50,9 @@ class Assembler {
   void load_to(double t) { t_loads_ = t; }
   double loaded_to() const { return t_loads_; }
   void set_load_pressures(const VecX& p) { loads_.set_pressures(p); }  // of given volumes
-  VecX unit_pressure(int volume, const VecX& u) const;    // (3 n) [N/MPa]
-  double swept_volume(int volume, const VecX& u) const;   // [mm^3]
-  VecX load_forces(double t, const VecX& u) const;        // (3 n) [N]
+  VecX unit_pressure(int volume, const VecX& u) const;                 // (3 n) [N/MPa]
+  double swept_volume(int volume, const VecX& u) const;                // [mm^3]
+  VecX load_forces(double t, const VecX& u) const;                     // (3 n) [N]
 
   // Forces and, if requested, the tangent at u. False if an element is turned inside out, or a
   // force is not finite. du_prescribed: the displacement of prescribed unknowns that is still to be

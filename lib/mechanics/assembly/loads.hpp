@@ -53,9 +53,9 @@ class Loads {
   // Loads with a given volume, in their order; most scenes have none.
   int n_volumes() const;
   const SurfaceLoad& volume_load(int i) const { return loads_[volume_index(i)]; }
-  double given_volume(int i, double t) const;                      // [mm^3]
-  double swept_volume(int i, const Displacements& u) const;        // [mm^3], of the whole body
-  void set_pressures(const VecX& p);                               // of them, by volume [MPa]
+  double given_volume(int i, double t) const;                // [mm^3]
+  double swept_volume(int i, const Displacements& u) const;  // [mm^3], of the whole body
+  void set_pressures(const VecX& p);                         // of them, by volume [MPa]
   // forces of 1 MPa on each facet of such a load at u
   void each_unit(int i, const Displacements& u, const OnFacet& on) const;
 

@@ -12,7 +12,8 @@
 
 namespace langer {
 
-// Increments of given length, in which the factor of all loads is an unknown (solve/statics_border.cpp).
+// Increments of given length, in which the factor of all loads is an unknown
+// (solve/statics_border.cpp).
 struct ArcLengthOptions {
   double length = 0;
   static void fields(auto& v) {

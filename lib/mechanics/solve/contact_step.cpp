@@ -89,12 +89,13 @@ std::optional<VecX> Statics::correction() {
     return std::nullopt;
   // Supporting springs change the tangent too much to reuse its factor. The displacement
   // formulation has no mixed equations in which an old tangent could stand for the new one.
-  // Without contact an indefinite tangent is factorized as it is, between the limit points of an arc.
+  // Without contact an indefinite tangent is factorized as it is, between the limit points of an
+  // arc.
   const bool as_it_is =
       factor_.kind() == TangentFactor::Kind::whole ||
       (bordered() && contacts_.empty() && factor_.kind() == TangentFactor::Kind::indefinite);
-  factor_serves_ = !iterative() && as_it_is &&
-                   equilibrium_.formulation() != Formulation::displacement;
+  factor_serves_ =
+      !iterative() && as_it_is && equilibrium_.formulation() != Formulation::displacement;
   if (factor_serves_) equilibrium_.keep_dilatations();
   if (contact_in_tangent()) return du;
   return solve_condensed(rhs);
@@ -166,8 +167,8 @@ std::optional<VecX> Statics::solve_with_contact(const VecX& rhs) {
 // is a good preconditioner: (I - K^-1 S) du = K^-1 rhs converges in a few iterations.
 VecX Statics::solve_with_follower_loads(const VecX& rhs) {
   if (!equilibrium_.loads().follow()) return factor_.linear().solve(rhs);
-  return solve_near_factor(
-      rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_))));
+  return solve_near_factor(rhs +
+                           on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_))));
 }
 
 // The same where no prescribed dof moves.

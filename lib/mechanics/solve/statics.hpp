@@ -125,8 +125,8 @@ class Statics {
   // them: one factorization each, by the solvers that are kept for the next state.
   Signature signature_under(std::span<OtherTangent> others,
                             std::vector<std::unique_ptr<LinearSolver>>& solvers);
-  // The tangent of which signature() counts the negative eigenvalues, at the accepted state: contacts
-  // as stiff springs. For bodies whose tangent has a factor.
+  // The tangent of which signature() counts the negative eigenvalues, at the accepted state:
+  // contacts as stiff springs. For bodies whose tangent has a factor.
   std::vector<double> constrained_tangent();
   std::vector<double> constrained_tangent(OtherTangent& other);
   // Forces of 1 MPa on each surface of a given volume, on the free rows.
@@ -234,11 +234,11 @@ class Statics {
     VecX towards;     // of the beginning; may be empty
   };
   std::optional<Arc> arc_;
-  double t_next_ = 0;             // what the last linear solve adds to t
-  VecX rates_;                    // (3 n) of imposed displacements, per t
-  VecX p_, p_next_;               // pressures of given volumes on trial, and what is added [MPa]
-  std::vector<VecX> columns_;     // (free) forces per unknown of the border
-  std::vector<VecX> gradients_;   // (3 n) of each given volume
+  double t_next_ = 0;            // what the last linear solve adds to t
+  VecX rates_;                   // (3 n) of imposed displacements, per t
+  VecX p_, p_next_;              // pressures of given volumes on trial, and what is added [MPa]
+  std::vector<VecX> columns_;    // (free) forces per unknown of the border
+  std::vector<VecX> gradients_;  // (3 n) of each given volume
   VecX dp_;  // of an iterative solution: change of the pressures [MPa]; else empty
   std::vector<VecX> u_start_;  // by contact, (3 n): what the increment's slip is measured from, the
                                // indenter where it began

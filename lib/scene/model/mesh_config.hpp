@@ -76,7 +76,8 @@ struct BendConfig {
   double radius = 0;
   static void fields(auto& v) {
     v(&BendConfig::radius, "radius", unit::mm,
-      "of the circle on which the bottom of the geometry is laid, its length unchanged", required, positive);
+      "of the circle on which the bottom of the geometry is laid, its length unchanged", required,
+      positive);
   }
 };
 
@@ -197,9 +198,9 @@ struct MeshConfig {
     double angle = spans.size[0] / bend->radius;
     if (round) angle = 2 * (spans.origin[0] + spans.size[0]) / bend->radius;
     if (angle > 6.2831853072)
-      found.push_back({"bend.radius", "found a circle that the body goes around more than once",
-                       round ? "at least its outer radius over pi" : "at least its length over 2 pi",
-                       ""});
+      found.push_back(
+          {"bend.radius", "found a circle that the body goes around more than once",
+           round ? "at least its outer radius over pi" : "at least its length over 2 pi", ""});
     if (!cuts.empty()) found.push_back({"bend", "found together with cuts", "one of the two", ""});
   }
 };

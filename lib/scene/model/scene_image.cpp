@@ -109,8 +109,7 @@ std::vector<std::array<int, 4>> facet_keys(const Mesh& mesh, const SurfaceLoad& 
 bool is_image(const SurfaceLoad& image, const SurfaceLoad& of, const MeshImage& g) {
   const double change = (image.traction - g.turn * of.traction).norm();
   return change <= same_place * of.traction.norm() && image.pressure == of.pressure &&
-         image.volume == of.volume &&
-         same_factor(image.factor, of.factor);
+         image.volume == of.volume && same_factor(image.factor, of.factor);
 }
 
 // Loads add up: each is the image of one other load, and no load of two.

@@ -322,7 +322,7 @@ struct SolveConfig {
       "auto: where the equilibrium becomes unstable, the critical point is found to 1e-4 of the path, its kind is named (limit point of "
       "load, limit point of travel, bifurcation) and its mode written; nothing is done where all states are stable");
     v(&SolveConfig::branch, "branch", unit::none,
-      "follow: at the first bifurcation the path goes on along the mode; solves the whole body, once as far as there and once more");
+      "follow: at the first bifurcation the path continues along the mode; solves the whole body, once as far as there and once more");
     v(&SolveConfig::imperfection, "imperfection", unit::none,
       "moves the nodes of the mesh along a mode of the perfect body, which is solved as far as its first critical point before");
     v(&SolveConfig::symmetry, "symmetry", unit::none,
@@ -479,12 +479,14 @@ struct SolveConfig {
       if (uncertainty)
         refuse(key, "uncertainty", "one of the two", "derivatives are those of given loads");
       if (reduce == Reduce::automatic)
-        refuse(key, "reduce: auto", "one of the two", "a section of its own: geometry: {section: ...}");
+        refuse(key, "reduce: auto", "one of the two",
+               "a section of its own: geometry: {section: ...}");
     }
     for (const std::string& key : {volume, std::string(path.arc_length ? "path.arc_length" : "")})
       if (!key.empty() && !contacts.empty())
-        refuse(key, "contacts", "a scene without indenters",
-               "its equation does not stand beside those of contact yet: hold or move sets of nodes");
+        refuse(
+            key, "contacts", "a scene without indenters",
+            "its equation is not solved together with those of contact yet: hold or move sets of nodes");
     if (!volume.empty() && path.arc_length)
       refuse("path.arc_length", "a given volume", "one of the two",
              "volumes grow where pressures turn back: no arc length is needed");
@@ -498,8 +500,8 @@ struct SolveConfig {
           refuse(at, "path.arc_length", "displacements and forces",
                  "a turn is not in proportion to the load factor");
       }
-    for (const std::string& key : {std::string(branch ? "branch" : ""),
-                                   std::string(imperfection ? "imperfection" : "")}) {
+    for (const std::string& key :
+         {std::string(branch ? "branch" : ""), std::string(imperfection ? "imperfection" : "")}) {
       if (key.empty()) continue;
       if (stability == StabilityCheck::off)
         refuse(key, "stability: off", "stability: auto", "critical points are where signs change");
@@ -507,7 +509,8 @@ struct SolveConfig {
       if (!contacts.empty())
         refuse(key, "contacts", "a scene without indenters", "modes with contact are written only");
       if (symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none)
-        refuse(key, "symmetry", "symmetry: none or auto", "a mode may break it: the whole body is solved");
+        refuse(key, "symmetry", "symmetry: none or auto",
+               "a mode may break it: the whole body is solved");
       if (mesh && !mesh->cuts.empty())
         refuse(key, "mesh.cuts", "a mesh without cuts", "nodes that hang follow no mode");
     }

@@ -39,8 +39,7 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
       throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity",
                                         "found a number that a section has to leave as it is",
                                         "others", errors.front().found});
-  return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where, &varied),
-          config.threads};
+  return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where, &varied), config.threads};
 }
 
 Reduction::Kind Reduction::kind() const {

@@ -71,7 +71,7 @@ class Run {
   SolveReport solve_at(double t);
   // Puts it at a state that was found before, and the one before that.
   void put_at(double t, const BodyState& state, const BodyState& before);
-  double t() const { return t_; }  // of the accepted state, on the path
+  double t() const { return t_; }                      // of the accepted state, on the path
   BodyState state_from(const StepRecord& step) const;  // of the model that is solved
 
   // The path leaves at t along a mode: (3 n) of the model, its largest movement 1.
