@@ -176,7 +176,7 @@ std::vector<Vec3> on_whole_body(const Run& run, const Softest& softest) {
 
 // How the mode behaves under mirrors in the middle planes of the body.
 std::string symmetry_of(const Mesh& mesh, const std::vector<Vec3>& mode) {
-  if (mesh.section) return "in the section";
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric) return "axisymmetric";
   const BoundingBox box = bounding_box(mesh.X);
   const Vec3 middle = box.middle();
   const double cell = 1e-6 * box.size().norm();
@@ -184,7 +184,8 @@ std::string symmetry_of(const Mesh& mesh, const std::vector<Vec3>& mode) {
   double size = 0;
   for (const Vec3& u : mode) size += u.squaredNorm();
   std::string words;
-  for (int k = 0; k < 3; ++k) {
+  const int axes = mesh.section ? 2 : 3;
+  for (int k = 0; k < axes; ++k) {
     Vec3 signs = Vec3::Ones();
     signs[k] = -1;
     double overlap = 0;
@@ -241,6 +242,7 @@ std::optional<double> wave_direction(const Mesh& mesh, const std::vector<Vec3>& 
     xz += area * slope[0] * slope[1];
   }
   if (!(xx + zz > 0)) return std::nullopt;
+  if (std::abs(xz) < 1e-9 * (xx + zz)) xz = 0;
   return 90 / std::numbers::pi * std::atan2(2 * xz, xx - zz);
 }
 
@@ -304,6 +306,9 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
       low = std::move(middle);
     }
   }
+  // Along one path a small part of the increment brings a small part of its movement.
+  const double part = (high.t - low.t) / (last.t - first.t);
+  const double moved = (high.state.u - low.state.u).norm() / (last.state.u - first.state.u).norm();
   CriticalPoint point;
   point.t = 0.5 * (low.t + high.t);
   point.within = 0.5 * (high.t - low.t);
@@ -315,6 +320,12 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
   point.t_state = low.t;
   run.put_at(high.t, high.state, low.state);
   describe(run, high.state.u - low.state.u, point);
+  if (moved > 0.3 && moved > 10 * part) {
+    point.kind = "jump to another path";  // no place with a mode
+    point.mode.clear();
+    point.symmetry.clear();
+    point.angle.reset();
+  }
   run.put_at(t_now, now, now);
   run.body.pressures_from(now.u);
   if (point.kind.empty()) return std::nullopt;

@@ -20,11 +20,12 @@
 namespace langer {
 
 struct CriticalPoint {
-  double t = 0;                 // middle of the bracket
-  double within = 0;            // half of its length
-  double load_factor = 0;       // t itself but on paths with arc lengths
-  std::string kind;             // "limit point of load", "limit point of travel", "bifurcation"
-  std::string symmetry;         // of the mode: "antisymmetric in x, symmetric in z"; may be empty
+  double t = 0;            // middle of the bracket
+  double within = 0;       // half of its length
+  double load_factor = 0;  // t itself but on paths with arc lengths
+  std::string kind;      // "limit point of load", "limit point of travel", "bifurcation", "jump to
+                         // another path"
+  std::string symmetry;  // of the mode: "antisymmetric in x, symmetric in z"; may be empty
   int before = 0, after = 0;    // negative eigenvalues
   std::vector<Vec3> mode;       // (n) of the whole body, the largest movement 1
   std::optional<double> angle;  // of the waves of the mode on the top face, from x towards z [deg]
