@@ -3,11 +3,9 @@
 //
 // Each row of the table is one direction (and frequency, or wavelength). The mechanics is in
 // lib/layers; this stage reads the config, goes through the directions and writes the result.
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "core/hdf5/seal.hpp"
 #include "layers/layers_config.hpp"
@@ -52,9 +50,10 @@ void warn_of(const Job<LayersConfig>& job, const Case& one,
              const std::map<std::string, std::vector<double>>& without) {
   for (const auto& [reason, angles] : without) {
     std::string state;
-    if (!one.name.empty()) state = " (" + one.name + ")";
-    job.warn("{} at {} of the directions{}: {:g} deg and others; {}", reason, angles.size(), state,
-             angles.front(), "their cells are empty");
+    if (!one.name.empty()) state = one.name + ": ";
+    std::string where = fmt::format("{:g} deg", angles.front());
+    if (angles.size() > 1) where += fmt::format(" and {} more", angles.size() - 1);
+    job.warn("{}{} at {}, whose cells are empty", state, reason, where);
   }
 }
 
@@ -212,6 +211,8 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
   std::vector<Column> further;
   std::vector<Summary> summary;
   bool any_surface = false;
+  bool any_buckling = false;
+  bool any = false;
   for (const Case& one : cases_of(config)) {
     WrinkleProblem problem;
     problem.layers = layers;
@@ -233,6 +234,8 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
       const Wrinkle found = first_wrinkle(problem, angle * degrees);
       if (std::isnan(found.s)) without[in_words(found.kind)].push_back(angle);
       any_surface = any_surface || found.kind == Wrinkle::Kind::surface;
+      any_buckling = any_buckling || found.kind == Wrinkle::Kind::buckling;
+      any = any || !std::isnan(found.s);
       critical.values.push_back(found.s);
       wavelength.values.push_back(found.wavelength);
       before.values.push_back(found.wavelength_before);
@@ -256,9 +259,13 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
       if (std::isfinite(wavelength.values[*first])) {
         summary.push_back({column_of("wavelength_first", one), wavelength.values[*first], "mm"});
       }
-      job.say("{}wrinkles first at {:g} deg: {} {:.5g}, wavelength {:.4g} mm",
-              one.name.empty() ? "" : one.name + ": ", columns[0].values[*first],
-              shear ? "shear" : "stretch", critical.values[*first], wavelength.values[*first]);
+      std::string length;
+      if (std::isfinite(wavelength.values[*first])) {
+        length = fmt::format(", wavelength {:.4g} mm", wavelength.values[*first]);
+      }
+      job.say("{}unstable first at {:g} deg: {} {:.5g}{}", one.name.empty() ? "" : one.name + ": ",
+              columns[0].values[*first], shear ? "shear" : "stretch", critical.values[*first],
+              length);
     }
     columns.push_back(std::move(critical));
     columns.push_back(std::move(wavelength));
@@ -271,7 +278,13 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
         "wavelength. Creases appear earlier (at 35 % in plane strain of neo-Hooke), which a "
         "linearisation cannot find");
   }
+  if (any_buckling) {
+    job.warn(
+        "buckling: the longest wave becomes unstable first, as of a sheet that nothing holds; "
+        "there is no wavelength");
+  }
   write_curves(job.output, {{}, columns, {}, summary}, job.identity);
+  if (!any) return summary;
 
   Plot plot;
   plot.title = "First wrinkle of stretched layers";

@@ -259,7 +259,6 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (shear) waves.insert(waves.end(), others.begin(), others.end());
   if (!unstable_of(path, 0, waves).empty()) {
     wrinkle.kind = Wrinkle::Kind::at_once;
-    wrinkle.s = path.s(0);
     return wrinkle;
   }
 
@@ -315,7 +314,7 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (long_first) wrinkle.kind = Wrinkle::Kind::buckling;
   if (one_length || short_first) wrinkle.kind = Wrinkle::Kind::surface;
   const bool any_wavelength = wrinkle.kind != Wrinkle::Kind::wavy;
-  const double from = std::max(0.0, bracket.low - 0.02 * bracket.high);
+  const double from = 0.5 * bracket.low;  // between the waves that were tried lie earlier ones
   const double to = bracket.high * 1.02;
   double k0 = first.k;
   if (short_first) k0 = shortest;

@@ -184,3 +184,21 @@ TEST_CASE("a layer of two equal halves is one layer") {
   CHECK(one.speed == near(two.speed, 1e-5));
   CHECK(one.mode == two.mode);
 }
+
+TEST_CASE("surface tension speeds up short waves as the capillary Rayleigh equation says") {
+  const double tension = 5e-4;  // N/mm
+  const double k = 20;
+  LayerStack body{{stretched(neo_hooke(0.02), 1, 1, infinite)}};
+  body.surface_tension = tension;
+  // (2 - x)^2 - 4 sqrt(1 - x) = (tension k / mu) x,  x = rho c^2 / mu
+  double low = 0.5;
+  double high = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.5 * (low + high);
+    const double left = (2 - x) * (2 - x) - 4 * std::sqrt(1 - x);
+    (left < tension * k / 0.04 * x ? low : high) = x;
+  }
+  const GuidedWave wave = guided_wave(body, {.angle = 0, .wavenumber = k});
+  REQUIRE(wave.exists);
+  CHECK(wave.speed == near(std::sqrt(low * 0.04 / density), 1e-6));
+}
