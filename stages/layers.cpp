@@ -57,17 +57,16 @@ void warn_of(const Job<LayersConfig>& job, const Case& one,
   }
 }
 
-void draw(const Job<LayersConfig>& job, const std::string& name, Plot plot) {
+// A figure with the numbers that it shows.
+void draw(const Job<LayersConfig>& job, const std::string& name, const std::vector<Column>& columns,
+          const Plot& plot) {
   if (!job.config.figures) return;
+  write_text_file(job.side_file(name + ".csv"), csv(columns));
   Pictures pictures(job.side_file(""), job.config.figure_style);
   pictures.draw(name, plot);
   for (const auto& [reason, names] : pictures.failed()) {
     job.say("not drawn: {} ({})", names, reason);
   }
-}
-
-std::string table_name(const Job<LayersConfig>& job) {
-  return std::filesystem::path(job.output).stem().string() + ".csv";
 }
 
 // --- waves
@@ -180,10 +179,10 @@ std::vector<Summary> waves(const Job<LayersConfig>& job, const std::vector<Layer
   for (const Column& column : columns) {
     if (!column.name.starts_with("speed") || column.name == "speed_error") continue;
     const bool first = column.name == "speed";
-    plot.lines.push_back({table_name(job), "angle_deg", csv_name(column.name, column.unit),
+    plot.lines.push_back({"speed.csv", "angle_deg", csv_name(column.name, column.unit),
                           first ? "prestretch" : literal(column.name.substr(6))});
   }
-  if (given.size() == 1) draw(job, "speed", plot);
+  if (given.size() == 1) draw(job, "speed", columns, plot);
   return summary;
 }
 
@@ -294,10 +293,10 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
   for (const Column& column : columns) {
     if (!column.name.starts_with(quantity) || column.name.ends_with("_error")) continue;
     const bool first = column.name == quantity;
-    plot.lines.push_back({table_name(job), "angle_deg", csv_name(column.name, column.unit),
+    plot.lines.push_back({"critical.csv", "angle_deg", csv_name(column.name, column.unit),
                           first ? "prestretch" : literal(column.name.substr(quantity.size() + 1))});
   }
-  draw(job, "critical", plot);
+  draw(job, "critical", columns, plot);
   return summary;
 }
 
@@ -309,8 +308,8 @@ std::vector<Summary> layers(const Job<LayersConfig>& job) {
 
 std::vector<std::string> side_files(const LayersConfig& config) {
   if (!config.figures) return {};
-  if (config.kind == LayersKind::waves) return {"speed.gp"};
-  return {"critical.gp"};
+  if (config.kind == LayersKind::waves) return {"speed.csv", "speed.gp"};
+  return {"critical.csv", "critical.gp"};
 }
 
 }  // namespace
