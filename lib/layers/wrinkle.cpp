@@ -340,6 +340,12 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   wrinkle.s = path.s(t);
   wrinkle.error = std::abs(wrinkle.s - path.s(fine.t)) / wrinkle.s;
   if (any_wavelength) return wrinkle;
+  // layers of one law, as of a half-space: short waves are unstable in the same state
+  constexpr double alike = 1e-5;
+  if (path.stability_at(t * (1 + alike), wrinkle.wave_angle, shortest, 2) < 0) {
+    wrinkle.kind = Wrinkle::Kind::surface;
+    return wrinkle;
+  }
   const double k = fine.k + (fine.k - coarse.k) / 15;
   wrinkle.wavelength = 2 * pi / k;
   // k as a covector of the prestretched plane: F^T k

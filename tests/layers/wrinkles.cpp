@@ -135,6 +135,15 @@ TEST_CASE("a sheared half-space wrinkles across its shortest direction") {
   CHECK(std::tan(found.wave_angle) == near(-1 / root, 1e-3));
 }
 
+TEST_CASE("a film of the law of its base has no wavelength of its own") {
+  WrinkleProblem problem;
+  problem.layers = {neo_hooke(0.01, 1), neo_hooke(0.01, infinite)};
+  const Wrinkle found = first_wrinkle(problem, 0);
+  CHECK(found.kind == Wrinkle::Kind::surface);
+  CHECK(std::isnan(found.wavelength));
+  CHECK(found.s == near(std::sqrt(0.29559774252208393), 1e-5));
+}
+
 TEST_CASE("a layer that is unstable before the pinch is told from one that never wrinkles") {
   WrinkleProblem problem = half_space(WidthUnderCompression::held);
   problem.prestretch(0, 0) = 0.5;
