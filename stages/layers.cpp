@@ -3,11 +3,9 @@
 //
 // Each row of the table is one direction (and frequency, or wavelength). The mechanics is in
 // lib/layers; this stage reads the config, goes through the directions and writes the result.
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "core/hdf5/seal.hpp"
 #include "layers/layers_config.hpp"
@@ -52,23 +50,23 @@ void warn_of(const Job<LayersConfig>& job, const Case& one,
              const std::map<std::string, std::vector<double>>& without) {
   for (const auto& [reason, angles] : without) {
     std::string state;
-    if (!one.name.empty()) state = " (" + one.name + ")";
-    job.warn("{} at {} of the directions{}: {:g} deg and others; {}", reason, angles.size(), state,
-             angles.front(), "their cells are empty");
+    if (!one.name.empty()) state = one.name + ": ";
+    std::string where = fmt::format("{:g} deg", angles.front());
+    if (angles.size() > 1) where += fmt::format(" and {} more", angles.size() - 1);
+    job.warn("{}{} at {}, whose cells are empty", state, reason, where);
   }
 }
 
-void draw(const Job<LayersConfig>& job, const std::string& name, Plot plot) {
+// A figure with the numbers that it shows.
+void draw(const Job<LayersConfig>& job, const std::string& name, const std::vector<Column>& columns,
+          const Plot& plot) {
   if (!job.config.figures) return;
+  write_text_file(job.side_file(name + ".csv"), csv(columns));
   Pictures pictures(job.side_file(""), job.config.figure_style);
   pictures.draw(name, plot);
   for (const auto& [reason, names] : pictures.failed()) {
     job.say("not drawn: {} ({})", names, reason);
   }
-}
-
-std::string table_name(const Job<LayersConfig>& job) {
-  return std::filesystem::path(job.output).stem().string() + ".csv";
 }
 
 // --- waves
@@ -181,10 +179,10 @@ std::vector<Summary> waves(const Job<LayersConfig>& job, const std::vector<Layer
   for (const Column& column : columns) {
     if (!column.name.starts_with("speed") || column.name == "speed_error") continue;
     const bool first = column.name == "speed";
-    plot.lines.push_back({table_name(job), "angle_deg", csv_name(column.name, column.unit),
+    plot.lines.push_back({"speed.csv", "angle_deg", csv_name(column.name, column.unit),
                           first ? "prestretch" : literal(column.name.substr(6))});
   }
-  if (given.size() == 1) draw(job, "speed", plot);
+  if (given.size() == 1) draw(job, "speed", columns, plot);
   return summary;
 }
 
@@ -212,6 +210,8 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
   std::vector<Column> further;
   std::vector<Summary> summary;
   bool any_surface = false;
+  bool any_buckling = false;
+  bool any = false;
   for (const Case& one : cases_of(config)) {
     WrinkleProblem problem;
     problem.layers = layers;
@@ -233,6 +233,8 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
       const Wrinkle found = first_wrinkle(problem, angle * degrees);
       if (std::isnan(found.s)) without[in_words(found.kind)].push_back(angle);
       any_surface = any_surface || found.kind == Wrinkle::Kind::surface;
+      any_buckling = any_buckling || found.kind == Wrinkle::Kind::buckling;
+      any = any || !std::isnan(found.s);
       critical.values.push_back(found.s);
       wavelength.values.push_back(found.wavelength);
       before.values.push_back(found.wavelength_before);
@@ -256,9 +258,13 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
       if (std::isfinite(wavelength.values[*first])) {
         summary.push_back({column_of("wavelength_first", one), wavelength.values[*first], "mm"});
       }
-      job.say("{}wrinkles first at {:g} deg: {} {:.5g}, wavelength {:.4g} mm",
-              one.name.empty() ? "" : one.name + ": ", columns[0].values[*first],
-              shear ? "shear" : "stretch", critical.values[*first], wavelength.values[*first]);
+      std::string length;
+      if (std::isfinite(wavelength.values[*first])) {
+        length = fmt::format(", wavelength {:.4g} mm", wavelength.values[*first]);
+      }
+      job.say("{}unstable first at {:g} deg: {} {:.5g}{}", one.name.empty() ? "" : one.name + ": ",
+              columns[0].values[*first], shear ? "shear" : "stretch", critical.values[*first],
+              length);
     }
     columns.push_back(std::move(critical));
     columns.push_back(std::move(wavelength));
@@ -271,7 +277,13 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
         "wavelength. Creases appear earlier (at 35 % in plane strain of neo-Hooke), which a "
         "linearisation cannot find");
   }
+  if (any_buckling) {
+    job.warn(
+        "buckling: the longest wave becomes unstable first, as of a sheet that nothing holds; "
+        "there is no wavelength");
+  }
   write_curves(job.output, {{}, columns, {}, summary}, job.identity);
+  if (!any) return summary;
 
   Plot plot;
   plot.title = "First wrinkle of stretched layers";
@@ -281,10 +293,10 @@ std::vector<Summary> wrinkles(const Job<LayersConfig>& job, const std::vector<La
   for (const Column& column : columns) {
     if (!column.name.starts_with(quantity) || column.name.ends_with("_error")) continue;
     const bool first = column.name == quantity;
-    plot.lines.push_back({table_name(job), "angle_deg", csv_name(column.name, column.unit),
+    plot.lines.push_back({"critical.csv", "angle_deg", csv_name(column.name, column.unit),
                           first ? "prestretch" : literal(column.name.substr(quantity.size() + 1))});
   }
-  draw(job, "critical", plot);
+  draw(job, "critical", columns, plot);
   return summary;
 }
 
@@ -296,8 +308,8 @@ std::vector<Summary> layers(const Job<LayersConfig>& job) {
 
 std::vector<std::string> side_files(const LayersConfig& config) {
   if (!config.figures) return {};
-  if (config.kind == LayersKind::waves) return {"speed.gp"};
-  return {"critical.gp"};
+  if (config.kind == LayersKind::waves) return {"speed.csv", "speed.gp"};
+  return {"critical.csv", "critical.gp"};
 }
 
 }  // namespace

@@ -68,8 +68,9 @@ class Modes {
 
   double fastest() const { return fastest_; }
   // A wave that is faster than the shear waves of a half-space below leaks into it.
+  // A layer on a base carries waves of any speed near the frequency where they are cut off.
   double top_speed() const {
-    if (!stack_.has_half_space()) return 1.2 * fastest_;
+    if (!stack_.has_half_space()) return (query_.frequency ? 10 : 2) * fastest_;
     const DirectedModuli<double>& m = moduli_.back();
     double modulus = std::max(m.Q(1, 1), 0.0);
     if (!held_) modulus = std::max(std::min(modulus, m.Q(2, 2)), 0.0);

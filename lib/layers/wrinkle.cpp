@@ -259,7 +259,6 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (shear) waves.insert(waves.end(), others.begin(), others.end());
   if (!unstable_of(path, 0, waves).empty()) {
     wrinkle.kind = Wrinkle::Kind::at_once;
-    wrinkle.s = path.s(0);
     return wrinkle;
   }
 
@@ -315,7 +314,7 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (long_first) wrinkle.kind = Wrinkle::Kind::buckling;
   if (one_length || short_first) wrinkle.kind = Wrinkle::Kind::surface;
   const bool any_wavelength = wrinkle.kind != Wrinkle::Kind::wavy;
-  const double from = std::max(0.0, bracket.low - 0.02 * bracket.high);
+  const double from = 0.5 * bracket.low;  // between the waves that were tried lie earlier ones
   const double to = bracket.high * 1.02;
   double k0 = first.k;
   if (short_first) k0 = shortest;
@@ -341,6 +340,12 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   wrinkle.s = path.s(t);
   wrinkle.error = std::abs(wrinkle.s - path.s(fine.t)) / wrinkle.s;
   if (any_wavelength) return wrinkle;
+  // layers of one law, as of a half-space: short waves are unstable in the same state
+  constexpr double alike = 1e-5;
+  if (path.stability_at(t * (1 + alike), wrinkle.wave_angle, shortest, 2) < 0) {
+    wrinkle.kind = Wrinkle::Kind::surface;
+    return wrinkle;
+  }
   const double k = fine.k + (fine.k - coarse.k) / 15;
   wrinkle.wavelength = 2 * pi / k;
   // k as a covector of the prestretched plane: F^T k

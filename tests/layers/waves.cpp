@@ -184,3 +184,42 @@ TEST_CASE("a layer of two equal halves is one layer") {
   CHECK(one.speed == near(two.speed, 1e-5));
   CHECK(one.mode == two.mode);
 }
+
+TEST_CASE("surface tension speeds up short waves as the capillary Rayleigh equation says") {
+  const double tension = 5e-4;  // N/mm
+  const double k = 20;
+  LayerStack body{{stretched(neo_hooke(0.02), 1, 1, infinite)}};
+  body.surface_tension = tension;
+  // (2 - x)^2 - 4 sqrt(1 - x) = (tension k / mu) x,  x = rho c^2 / mu
+  double low = 0.5;
+  double high = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.5 * (low + high);
+    const double left = (2 - x) * (2 - x) - 4 * std::sqrt(1 - x);
+    (left < tension * k / 0.04 * x ? low : high) = x;
+  }
+  const GuidedWave wave = guided_wave(body, {.angle = 0, .wavenumber = k});
+  REQUIRE(wave.exists);
+  CHECK(wave.speed == near(std::sqrt(low * 0.04 / density), 1e-6));
+}
+
+TEST_CASE("waves askew to fibres and stretch have the speeds that the Stroh formalism gives") {
+  // data/synthetic_waves.py without its noise: moduli by differences of the energy, three decaying
+  // waves, singular stiffness of the surface
+  Material material = neo_hooke(0.010);
+  material.fibres = {Fibre{.law = HgoFibre{0.030, 0.9}}};
+  PlaneDeformation F = PlaneDeformation::Identity();
+  F(0, 0) = 1.12;
+  const LayerStack body{
+      {layer_state({"skin", material, specimen_fibres(material, 20), infinite, density}, F,
+                   Dilatation::incompressible)}};
+  const std::pair<double, double> speeds[] = {
+      {0, 6049.433260},  {10, 6150.330452}, {20, 6151.130865},  {40, 5822.875411},
+      {70, 4861.322886}, {90, 4294.550618}, {120, 4331.038908}, {160, 5586.817809}};
+  for (const auto& [degrees, speed] : speeds) {
+    const GuidedWave wave = guided_wave(body, {.angle = degrees * pi / 180});
+    CAPTURE(degrees);
+    REQUIRE(wave.exists);
+    CHECK(wave.speed == near(speed, 1e-6));
+  }
+}

@@ -125,6 +125,34 @@ TEST_CASE("a half-space loses its flat surface where Biot says") {
   CHECK(std::isnan(any.wavelength));
 }
 
+TEST_CASE("a sheared half-space wrinkles across its shortest direction") {
+  WrinkleProblem problem = half_space(WidthUnderCompression::held);
+  problem.load = WrinkleLoad::shear;
+  const Wrinkle found = first_wrinkle(problem, 0);
+  // the smallest stretch in the plane over that through the depth, 1, is the root of Biot's cubic
+  const double root = 0.29559774252208393;
+  CHECK(found.s == near(1 / root - root, 1e-5));
+  CHECK(std::tan(found.wave_angle) == near(-1 / root, 1e-3));
+}
+
+TEST_CASE("a film of the law of its base has no wavelength of its own") {
+  WrinkleProblem problem;
+  problem.layers = {neo_hooke(0.01, 1), neo_hooke(0.01, infinite)};
+  const Wrinkle found = first_wrinkle(problem, 0);
+  CHECK(found.kind == Wrinkle::Kind::surface);
+  CHECK(std::isnan(found.wavelength));
+  CHECK(found.s == near(std::sqrt(0.29559774252208393), 1e-5));
+}
+
+TEST_CASE("a layer that is unstable before the pinch is told from one that never wrinkles") {
+  WrinkleProblem problem = half_space(WidthUnderCompression::held);
+  problem.prestretch(0, 0) = 0.5;
+  CHECK(first_wrinkle(problem, 0).kind == Wrinkle::Kind::at_once);
+  problem.prestretch(0, 0) = 1;
+  problem.limit = 0.6;
+  CHECK(first_wrinkle(problem, 0).kind == Wrinkle::Kind::none);
+}
+
 TEST_CASE("a stiff film wrinkles as the exact solution of two layers says") {
   for (const double contrast : {2.0, 5.0, 30.0, 100.0, 1000.0}) {
     CAPTURE(contrast);
