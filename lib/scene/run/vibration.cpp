@@ -144,8 +144,10 @@ HarmonicRecord harmonic_record(const SolveConfig& config, Run& run,
   try {
     harmonic.emplace(run.body, run.statics, density, driver);
   } catch (const std::invalid_argument& problem) {
+    std::string hint;
+    if (run.reduction.part()) hint = whole_body;
     refuse(where, key, std::string("found ") + problem.what(),
-           "what can oscillate along harmonic.along", whole_body);
+           "what can oscillate along harmonic.along", hint);
   }
   for (double frequency : config.harmonic->frequencies.values()) {
     const Complex k = harmonic->stiffness(frequency);
