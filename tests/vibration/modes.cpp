@@ -157,6 +157,16 @@ TEST_CASE("a clamped column shears at odd quarters of its wave length") {
   }
 }
 
+TEST_CASE("modes of a viscous body are those after its branches have relaxed") {
+  const Mesh mesh = column(CellType::hex8, 4, 3);
+  Material viscous = test::neo_hooke(a1, 1e-3);
+  viscous.viscous = {ViscousBranch{0.1, 0.7}};
+  const auto lowest = [&](const Material& material) {
+    return modes_at(mesh, material, shear_only(mesh), at_rest(mesh), 1).modes[0].frequency();
+  };
+  CHECK(lowest(viscous) == near(lowest(test::neo_hooke(a1, 1e-3)), 1e-12));
+}
+
 TEST_CASE("frequencies of hex8 converge with the square of the cells from above") {
   const double exact = frequency_of(pi / 6, 2 * a1);
   std::vector<double> error;
