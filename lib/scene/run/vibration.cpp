@@ -201,6 +201,12 @@ Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& wh
   return driver;
 }
 
+void check_vibration(const SolveConfig& config, const Run& run, const Run::Where& where) {
+  if (!config.modes && !config.harmonic) return;
+  densities(*config.dynamics, run.mesh, where);
+  if (config.harmonic) driver_of(config, run, where);
+}
+
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
                                             const Run::Where& where) {
   if (!config.modes && !config.harmonic) return std::nullopt;
@@ -210,7 +216,8 @@ std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
     if (config.modes) record.modes = modes_record(config, run, density);
     if (config.harmonic) record.harmonic = harmonic_record(config, run, density, where);
   } catch (const std::invalid_argument& problem) {
-    refuse(where, "modes", std::string("found ") + problem.what(), "a state whose contact can be frozen");
+    refuse(where, "modes", std::string("found ") + problem.what(),
+           "a state whose contact can be frozen");
   } catch (const std::runtime_error& problem) {
     throw Failure(Exit::not_converged, Error{{}, "vibration", problem.what(), "", ""});
   }
