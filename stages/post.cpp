@@ -284,12 +284,12 @@ StepState with_mode(const Job<PostConfig>& job, const Solution& solution, const 
   std::size_t known = 0;
   if (vibration.modes) known = vibration.modes->shape.size();
   if (mode > known)
-    refuse(job, {{key + ".mode", fmt::format("found {}, and the solution has {} modes", mode, known),
-                  "a mode of the solution", "the key `modes` of the solve config computes them"}});
+    refuse(job,
+           {{key + ".mode", fmt::format("found {}, and the solution has {} modes", mode, known),
+             "a mode of the solution", "the key `modes` of the solve config computes them"}});
   const double size = bounding_box(solution.body.mesh().X).size().norm();
   const std::vector<Vec3>& shape = vibration.modes->shape[mode - 1];
-  for (std::size_t i = 0; i < state.u.size(); ++i)
-    state.u[i] += choice.amplitude * size * shape[i];
+  for (std::size_t i = 0; i < state.u.size(); ++i) state.u[i] += choice.amplitude * size * shape[i];
   return state;
 }
 

@@ -254,8 +254,7 @@ void read_value(const Tree& tree, const std::string& path, const Member& m, T& o
     read_named_things(tree, path, m, out, f);
   } else {
     if constexpr (Shortened<T>) {
-      if (tree.kind == Kind::scalar)
-        return read_struct(as_entry(T::short_key, tree), path, out, f);
+      if (tree.kind == Kind::scalar) return read_struct(as_entry(T::short_key, tree), path, out, f);
     }
     if constexpr (ShortenedList<T>) {
       if (tree.kind == Kind::list) return read_struct(as_entry(T::list_key, tree), path, out, f);

@@ -47,7 +47,8 @@ void ViscousPoints::begin(double seconds) {
   const auto step = [seconds](const ViscousBranch& branch) {
     return branch_step(branch, seconds);
   };
-  begin(step, [seconds](const ViscousBranch& branch) { return branch_step_error(branch, seconds); });
+  begin(step,
+        [seconds](const ViscousBranch& branch) { return branch_step_error(branch, seconds); });
 }
 
 void ViscousPoints::begin(const std::function<BranchStep(const ViscousBranch&)>& step,

@@ -100,7 +100,7 @@ class SolutionWriter {
   void append(const StepRecord& record);
   // Notes that this solution is the mirror image of another: by which symmetry, and of which.
   void write_image_of(const std::string& which);
-  void write_vibration(const VibrationRecord& record);  // about the last step
+  void write_vibration(const VibrationRecord& record);           // about the last step
   using Histories = std::map<std::string, std::vector<double>>;  // by name, a value for each step
   // Completes the file. cost: none if several runs computed it. summary: numbers of the whole
   // result. found_later: histories that follow from the whole path.

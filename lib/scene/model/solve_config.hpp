@@ -460,8 +460,8 @@ struct SolveConfig {
                          "a section vibrates within its plane only"});
       for (const auto& [name, contact] : contacts) {
         if (contact.adhesion)
-          found.push_back({key, "found together with contacts." + name + ".adhesion", "one of the two",
-                           "small movements of bonds are not linearised"});
+          found.push_back({key, "found together with contacts." + name + ".adhesion",
+                           "one of the two", "small movements of bonds are not linearised"});
       }
     };
     if (modes) look_at("modes");
