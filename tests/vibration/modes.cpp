@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <random>
 
 #include "core/tensor/dense.hpp"
@@ -16,14 +15,15 @@
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
+#include "vibration/soft_body.hpp"
 
 using namespace langer;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double rho = 1.1e-9;  // t/mm3
-constexpr double a1 = 0.01;     // MPa
+using test::a1;
+using test::pi;
+using test::rho;
 
 double frequency_of(double wave_number, double modulus) {
   return std::sqrt(modulus / rho) * wave_number / (2 * pi);
