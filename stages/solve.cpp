@@ -158,6 +158,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   }
   if (!run.serial_reason.empty()) report_idle_ranks(job, run.serial_reason);
 
+  check_vibration(config, run, job.where);
   const double fibre_jump = report_scene(job.voice(), run);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);

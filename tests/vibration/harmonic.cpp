@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "mechanics/mesh/section.hpp"
 #include "mechanics/nonlinear/newton.hpp"
@@ -12,14 +11,15 @@
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
+#include "vibration/soft_body.hpp"
 
 using namespace langer;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double rho = 1.1e-9;  // t/mm3
-constexpr double a1 = 0.01;     // MPa
+using test::a1;
+using test::pi;
+using test::rho;
 constexpr double shear = 2 * a1;
 
 Material viscous(double d, double tau, double gamma) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <random>
 
 #include "core/tensor/dense.hpp"
@@ -16,14 +15,15 @@
 #include "support/directions.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
+#include "vibration/soft_body.hpp"
 
 using namespace langer;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double rho = 1.1e-9;  // t/mm3
-constexpr double a1 = 0.01;     // MPa
+using test::a1;
+using test::pi;
+using test::rho;
 
 double frequency_of(double wave_number, double modulus) {
   return std::sqrt(modulus / rho) * wave_number / (2 * pi);
@@ -155,6 +155,16 @@ TEST_CASE("a clamped column shears at odd quarters of its wave length") {
     CHECK(found.modes[static_cast<std::size_t>(n - 1)].frequency() ==
           near(frequency_of(k, 2 * a1), 1e-4));
   }
+}
+
+TEST_CASE("modes of a viscous body are those after its branches have relaxed") {
+  const Mesh mesh = column(CellType::hex8, 4, 3);
+  Material viscous = test::neo_hooke(a1, 1e-3);
+  viscous.viscous = {ViscousBranch{0.1, 0.7}};
+  const auto lowest = [&](const Material& material) {
+    return modes_at(mesh, material, shear_only(mesh), at_rest(mesh), 1).modes[0].frequency();
+  };
+  CHECK(lowest(viscous) == near(lowest(test::neo_hooke(a1, 1e-3)), 1e-12));
 }
 
 TEST_CASE("frequencies of hex8 converge with the square of the cells from above") {

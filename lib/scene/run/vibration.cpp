@@ -144,8 +144,10 @@ HarmonicRecord harmonic_record(const SolveConfig& config, Run& run,
   try {
     harmonic.emplace(run.body, run.statics, density, driver);
   } catch (const std::invalid_argument& problem) {
+    std::string hint;
+    if (run.reduction.part()) hint = whole_body;
     refuse(where, key, std::string("found ") + problem.what(),
-           "what can oscillate along harmonic.along", whole_body);
+           "what can oscillate along harmonic.along", hint);
   }
   for (double frequency : config.harmonic->frequencies.values()) {
     const Complex k = harmonic->stiffness(frequency);
@@ -197,6 +199,12 @@ Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& wh
   }
   driver.nodes = nodes_of_part(set->second, driver.along, run, where);
   return driver;
+}
+
+void check_vibration(const SolveConfig& config, const Run& run, const Run::Where& where) {
+  if (!config.modes && !config.harmonic) return;
+  densities(*config.dynamics, run.mesh, where);
+  if (config.harmonic) driver_of(config, run, where);
 }
 
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,

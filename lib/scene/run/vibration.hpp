@@ -19,6 +19,10 @@ std::vector<double> densities(const DynamicsConfig& config, const Mesh& mesh,
 // it is not symmetric as the scene is, or the mesh has no such set.
 Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& where);
 
+// Refuses before the path what can be known there: names, directions, symmetry. Throws
+// Failure(config).
+void check_vibration(const SolveConfig& config, const Run& run, const Run::Where& where);
+
 // Nothing where the config asks for none. Of the run's accepted state; Failure(config) and
 // Failure(not_converged) as the above and mechanics/vibration say.
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
