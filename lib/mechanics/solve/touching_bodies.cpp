@@ -270,8 +270,7 @@ class Step {
         const VecX free = lu.solve(move_);
         const MatX by_reactions = lu.solve_columns(FG);
         const MatX W = m_.L * by_reactions;
-        const LocalReport report =
-            solve_local({W, VecX(q_ + m_.L * free - W * present_), mu_}, r);
+        const LocalReport report = solve_local({W, VecX(q_ + m_.L * free - W * present_), mu_}, r);
         sweeps += report.sweeps;
         if (report.converged && r.allFinite()) {
           d = free + by_reactions * (r - present_);

@@ -110,9 +110,8 @@ Mesh mesh_of_bodies(const SolveConfig& config, const Find& where) {
   for (const auto& [name, body] : config.bodies) {
     const std::string key = "bodies." + name + ".mesh";
     try {
-      meshes.emplace_back(name, make_mesh(body.mesh, [](const std::string&) {
-                                  return Place{};
-                                }).mesh);
+      meshes.emplace_back(name,
+                          make_mesh(body.mesh, [](const std::string&) { return Place{}; }).mesh);
     } catch (const Failure& failure) {
       std::vector<Error> errors = failure.errors();
       for (Error& e : errors) {
@@ -173,14 +172,14 @@ void refuse_overlap(const SurfaceContact& surface, const Mesh& mesh, const std::
     if (node.gap() < -0.01 * std::sqrt(node.area) && (!deepest || node.gap() < deepest->gap()))
       deepest = &node;
   if (!deepest) return;
-  const auto node = static_cast<std::size_t>(
-      surface.nodes[static_cast<std::size_t>(deepest->candidate)]);
+  const auto node =
+      static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(deepest->candidate)]);
   const Vec3& X = mesh.X[node];
-  errors.push_back({where(key), key,
-                    fmt::format("the surfaces overlap at the start by {:.3g} mm at ({:g}, {:g}, {:g})",
-                                -deepest->gap(), X[0], X[1], X[2]),
-                    "bodies apart or touching, to 1 % of a facet",
-                    "move a mesh by the origin of its geometry"});
+  errors.push_back(
+      {where(key), key,
+       fmt::format("the surfaces overlap at the start by {:.3g} mm at ({:g}, {:g}, {:g})",
+                   -deepest->gap(), X[0], X[1], X[2]),
+       "bodies apart or touching, to 1 % of a facet", "move a mesh by the origin of its geometry"});
 }
 
 std::string name_of_body(const Mesh& mesh, int node) {
@@ -209,9 +208,8 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
       x.segment<3>(3 * i) = mesh.X[static_cast<std::size_t>(i)];
     for (const SurfaceContact& surface : scene.surfaces) {
       const bool touches =
-          std::any_of(surface.all_nodes.begin(), surface.all_nodes.end(), [&](int node) {
-            return std::binary_search(body.begin(), body.end(), node);
-          });
+          std::any_of(surface.all_nodes.begin(), surface.all_nodes.end(),
+                      [&](int node) { return std::binary_search(body.begin(), body.end(), node); });
       if (!touches) continue;
       rough = rough || surface.mu > 0;
       smooth = &surface;
@@ -264,7 +262,8 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     if (own.empty() || other.empty()) continue;
     SurfaceContact surface = surface_contact(name, contact.friction, mesh, own, other);
     std::vector<int> others;
-    for (const QuadNodes& facet : surface.other) others.insert(others.end(), facet.begin(), facet.end());
+    for (const QuadNodes& facet : surface.other)
+      others.insert(others.end(), facet.begin(), facet.end());
     std::sort(others.begin(), others.end());
     const bool shared = std::any_of(surface.nodes.begin(), surface.nodes.end(), [&](int node) {
       return std::binary_search(others.begin(), others.end(), node);
@@ -272,8 +271,7 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     if (shared) {
       errors.push_back({where(key + ".against"), key + ".against",
                         "shares nodes with the set of `on`: the two are glued there",
-                        "a surface of another body",
-                        "`bodies` gives each body a mesh of its own"});
+                        "a surface of another body", "`bodies` gives each body a mesh of its own"});
       continue;
     }
     refuse_overlap(surface, mesh, key, where, errors);

@@ -19,8 +19,7 @@ void record_surfaces(const Statics& statics, StepRecord& record) {
                                          {"cone", defect.cone},
                                          {"complementarity", defect.complementarity}})
       record.scalars[measure] = std::max(record.scalars[measure], value);
-    for (int j = 0; j < 3; ++j)
-      record.scalars["force_" + name + "_" + "xyz"[j]] = -defect.force[j];
+    for (int j = 0; j < 3; ++j) record.scalars["force_" + name + "_" + "xyz"[j]] = -defect.force[j];
     record.force_ind -= defect.force;
     record.scalars["force_" + name] = defect.force.norm();
     double area = 0;
