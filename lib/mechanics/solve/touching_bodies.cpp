@@ -294,9 +294,20 @@ class Step {
     const MatX W = m_.L * by_reactions;
     const MatX A = MatX::Identity(W.rows(), W.cols()) - kappa.asDiagonal() * W;
     const VecX b = present_ - kappa.asDiagonal() * VecX(m_.L * free);
-    VecX s = VecX::Zero(b.size());
-    const LocalReport report = solve_supported({W, A, VecX(q_ + m_.L * free), b, mu_}, s);
+    const SupportedProblem problem{W, A, VecX(q_ + m_.L * free), b, mu_};
+    // from the present reactions; where that leads nowhere, from none
+    VecX s = present_;
+    LocalReport report = solve_supported(problem, s);
     sweeps += report.newton_steps;
+    if (!report.converged) {
+      VecX other = VecX::Zero(b.size());
+      const LocalReport again = solve_supported(problem, other);
+      sweeps += again.newton_steps;
+      if (again.residual < report.residual) {
+        s = other;
+        report = again;
+      }
+    }
     r = b + A * s;
     for (std::size_t p = 0; p < report.status.size(); ++p)
       if (report.status[p] == ContactStatus::open)

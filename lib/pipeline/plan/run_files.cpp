@@ -43,7 +43,12 @@ void require_one_source(const StageSpec& stage, const Tree& config,
     if (key && given)
       throw Failure(Exit::config,
                     Error{key->place, port.name, "given here and as a file", "one of the two", ""});
-    const bool one_each = config.find(std::string(port.name) + "s") != nullptr;
+    // or a mesh and a material for each of several bodies
+    const Tree* bodies = config.find("bodies");
+    if (bodies && given && port.name == std::string_view("mesh"))
+      throw Failure(Exit::config, Error{bodies->place, "bodies", "given here, and a mesh as a file",
+                                        "one of the two", ""});
+    const bool one_each = bodies || config.find(std::string(port.name) + "s") != nullptr;
     if (!key && !given && !one_each)
       throw Failure(Exit::config,
                     Error{config.place, port.name, "missing",

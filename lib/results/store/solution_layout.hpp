@@ -88,7 +88,7 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
      "greatest depth of any point of the body's boundary inside an indenter; never negative"},
     {"penetration_*", "mm",
      "of two deformable surfaces: deepest node of either inside the other; never negative"},
-    {"contact_area_*", "mm^2",
+    {"contact_area_*", "mm2",
      "of two deformable surfaces: area of the nodes of `on` that touch; never negative"},
     {"pressure_max_*", "MPa",
      "of two deformable surfaces: greatest normal reaction over the area of its node"},
