@@ -35,7 +35,7 @@ struct MixedOptions {
   // (q) deviation between specimens beyond which a number counts as not known; empty: none
   VecX largest_deviation = {};
   int threads = 1;
-  int rounds = 200;
+  int rounds = 60;
   double tolerance = 1e-7;  // change of beta in standard errors, and relative change of Omega
   // called at the modes of each round: residuals may change their weights there
   std::function<void(const std::vector<VecX>& phi)> reweigh = {};
