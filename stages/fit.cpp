@@ -229,7 +229,9 @@ std::vector<Summary> fit_best_law(const Job<FitConfig>& job) {
   const bool discover = job.config.discover.has_value();
   require_replaceable_by(job.side_file("laws.csv"), "law,");
   for (const std::string& line : doubts(measured_tests(job.config))) job.warn("{}", line);
-  const auto progress = [&](const std::string& law) { job.say("fitting {}", law); };
+  const auto progress = [&](const std::string& law) {
+    job.say("fitting {}", law);
+  };
   LawComparison comparison;
   if (discover) {
     comparison = discover_terms(job.config, progress);
@@ -254,7 +256,9 @@ std::vector<Summary> fit_best_law(const Job<FitConfig>& job) {
 std::vector<Summary> fit_specimens(const Job<FitConfig>& job) {
   for (const std::string& name : population_files(job.config))
     require_replaceable_by(job.side_file(name), "");
-  const auto at = [&](const std::string& key) { return job.where(key); };
+  const auto at = [&](const std::string& key) {
+    return job.where(key);
+  };
   const PopulationOutcome outcome =
       fit_population(job.config, at, [&](const std::string& line) { job.say("{}", line); });
   for (const std::string& line : outcome.lines) job.say("{}", line);

@@ -88,8 +88,8 @@ TEST_CASE("a balanced one-way layout has the estimates of the textbook") {
   for (const double one : means) between += m * (one - mean) * (one - mean);
   const double variance = within / (n * (m - 1));
   const double omega = (between / n - variance) / m;
-  const MixedResult found = fit_mixed_model(
-      specimens, start_of(VecX::Ones(1), VecX::Ones(1), 1), {});
+  const MixedResult found =
+      fit_mixed_model(specimens, start_of(VecX::Ones(1), VecX::Ones(1), 1), {});
   REQUIRE(found.converged);
   CHECK(found.beta[0] == near(mean, 1e-10));
   CHECK(found.sigma * found.sigma == near(variance, 1e-7));
@@ -110,8 +110,8 @@ TEST_CASE("a scatter that is not there ends at zero, not in a failure") {
       y[k] = 2 + 0.5 * static_cast<double>(k) + 0.3 * random.normal();
     specimens.push_back(straight_line(y));
   }
-  const MixedResult found = fit_mixed_model(
-      specimens, start_of(VecX::Ones(2), VecX::Constant(2, 0.1), 0.5), {});
+  const MixedResult found =
+      fit_mixed_model(specimens, start_of(VecX::Ones(2), VecX::Constant(2, 0.1), 0.5), {});
   REQUIRE(found.converged);
   CHECK(found.omega(1, 1) < 1e-3);
   CHECK(found.sigma == near(0.3, 0.15));
@@ -147,8 +147,7 @@ TEST_CASE("population, scatter and noise of a nonlinear model are found again") 
   CHECK(std::abs(found.beta[1] + 0.5) < 4 * error[1]);
   CHECK(std::abs(std::log(std::sqrt(found.omega(0, 0)) / 0.4)) < 4 * found.log_deviation_error[0]);
   CHECK(std::abs(std::log(std::sqrt(found.omega(1, 1)) / 0.3)) < 4 * found.log_deviation_error[1]);
-  const double correlation =
-      found.omega(1, 0) / std::sqrt(found.omega(0, 0) * found.omega(1, 1));
+  const double correlation = found.omega(1, 0) / std::sqrt(found.omega(0, 0) * found.omega(1, 1));
   CHECK(std::abs(std::atanh(correlation) - std::atanh(rho)) < 4 * found.correlation_error(1, 0));
   CHECK(found.sigma == near(0.05, 0.05));
 
@@ -181,8 +180,8 @@ TEST_CASE("an effect of a covariate is separated from the scatter") {
   }
   MixedOptions options;
   options.varies = {true, false};
-  const MixedResult found = fit_mixed_model(
-      specimens, start_of(VecX::Zero(3), VecX::Constant(2, 0.1), 0.2), options);
+  const MixedResult found =
+      fit_mixed_model(specimens, start_of(VecX::Zero(3), VecX::Constant(2, 0.1), 0.2), options);
   REQUIRE(found.converged);
   CHECK(std::abs(found.beta[2] - 0.7) < 4 * std::sqrt(found.beta_covariance(2, 2)));
   CHECK(found.omega.row(1).isZero(0));
@@ -190,7 +189,8 @@ TEST_CASE("an effect of a covariate is separated from the scatter") {
 }
 
 TEST_CASE("links and their slopes agree, and lead back") {
-  for (const Link& link : {Link{LinkKind::identity}, Link{LinkKind::log}, Link{LinkKind::logit, 0, 1. / 3}}) {
+  for (const Link& link :
+       {Link{LinkKind::identity}, Link{LinkKind::log}, Link{LinkKind::logit, 0, 1. / 3}}) {
     for (const double x : {0.01, 0.1, 0.3}) {
       const double phi = link.forward(x);
       CHECK(link.backward(phi) == near(x, 1e-12));

@@ -79,7 +79,9 @@ TEST_CASE("samples of a skewed density have its quantiles") {
     for (Eigen::Index i = 0; i < chain.draws.rows(); ++i) y.push_back(std::exp(chain.draws(i, 0)));
   std::sort(y.begin(), y.end());
   // quantiles of the gamma distribution; 12000 samples know a probability to 0.005
-  const auto below = [](double x) { return 1 - std::exp(-x) * (1 + x + x * x / 2); };
+  const auto below = [](double x) {
+    return 1 - std::exp(-x) * (1 + x + x * x / 2);
+  };
   CHECK(below(quantile(y, 0.025)) == near(0.025, 0, 0.008));
   CHECK(below(quantile(y, 0.5)) == near(0.5, 0, 0.025));
   CHECK(below(quantile(y, 0.975)) == near(0.975, 0, 0.008));
@@ -105,7 +107,8 @@ TEST_CASE("chains that stay apart are not taken for one distribution") {
   std::vector<VecX> chains;
   for (int c = 0; c < 4; ++c) {
     VecX x(100);
-    for (Eigen::Index i = 0; i < 100; ++i) x[i] = 5 * c + std::sin(37.7 * static_cast<double>(i * i));
+    for (Eigen::Index i = 0; i < 100; ++i)
+      x[i] = 5 * c + std::sin(37.7 * static_cast<double>(i * i));
     chains.push_back(x);
   }
   CHECK(convergence(chains).r_hat > 2);

@@ -58,8 +58,10 @@ TEST_CASE("quantiles of a posterior are the intervals of Student where the model
     const double error = std::sqrt(found.covariance(at, at));
     // Student's 2.0154 for 44 degrees of freedom; quantiles of so many samples scatter by 5 %
     CHECK(table.column("median").values[j] == near(found.best.p[at], 0, 0.08 * error));
-    CHECK(table.column("lower_95").values[j] == near(found.best.p[at] - 2.0154 * error, 0, 0.2 * error));
-    CHECK(table.column("upper_95").values[j] == near(found.best.p[at] + 2.0154 * error, 0, 0.2 * error));
+    CHECK(table.column("lower_95").values[j] ==
+          near(found.best.p[at] - 2.0154 * error, 0, 0.2 * error));
+    CHECK(table.column("upper_95").values[j] ==
+          near(found.best.p[at] + 2.0154 * error, 0, 0.2 * error));
   }
   SUBCASE("and do not depend on threads") {
     config.samples = 200;

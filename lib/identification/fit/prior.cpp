@@ -95,7 +95,8 @@ void weigh_by_noise(FitProblem& problem, const FitOptions& options) {
   plain.further.reset();
   const FitResult found = fit(plain, options);
   if (!std::isfinite(found.best.cost)) return;
-  const auto freedom = std::max(1., static_cast<double>(found.residual.size() - found.best.p.size()));
+  const auto freedom =
+      std::max(1., static_cast<double>(found.residual.size() - found.best.p.size()));
   const double noise = found.residual.norm() / std::sqrt(freedom);
   // data that the law follows exactly outweigh any prior
   double largest = 0;

@@ -74,7 +74,8 @@ void set_ellipticity(LawOutcome& law) {
       if (state.converged) value = smallest_shear_stiffness(material, state.F, a).value;
       if (std::isgreaterequal(value, 0)) continue;
       law.elliptic = false;
-      law.lost = fmt::format("in {} at strain {:.3g}", test.name, strain_of(test.kind, test.first[i]));
+      law.lost =
+          fmt::format("in {} at strain {:.3g}", test.name, strain_of(test.kind, test.first[i]));
     }
   }
 }
@@ -117,7 +118,8 @@ bool same_errors(const LawOutcome& a, const LawOutcome& b) {
   const std::size_t n = a.left_out.size();
   if (n < 2) return false;
   double mean = 0;
-  for (std::size_t i = 0; i < n; ++i) mean += (b.left_out[i] - a.left_out[i]) / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i)
+    mean += (b.left_out[i] - a.left_out[i]) / static_cast<double>(n);
   double square = 0;
   double size = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -146,8 +148,8 @@ double chi_square(FitProblem problem, const VecX& start, double noise) {
 // By how much `other` misses the candidate in which `truth` is right, in standard deviations.
 double missed_by(const LawOutcome& truth, const LawOutcome& other, const CandidateChoice& choice,
                  std::string& name) {
-  const auto test = candidate_test(choice, truth.fit.material, truth.problem.tests,
-                                   truth.problem.dilatation);
+  const auto test =
+      candidate_test(choice, truth.fit.material, truth.problem.tests, truth.problem.dilatation);
   if (!test) return unknown;
   name = test->name;
   const VecX& r = truth.fit.residual;
@@ -182,7 +184,8 @@ void refuse_if_none(const std::vector<LawOutcome>& laws, const std::string& key)
   for (const LawOutcome& law : laws)
     if (law.failed.empty()) return;
   std::string why;
-  for (const LawOutcome& law : laws) why += fmt::format("{}{}: {}", why.empty() ? "" : "; ", law.name, law.failed);
+  for (const LawOutcome& law : laws)
+    why += fmt::format("{}{}: {}", why.empty() ? "" : "; ", law.name, law.failed);
   throw Failure(Exit::not_converged,
                 Error{{}, key, "no law has an optimum: " + why, "", "more starts, or other laws"});
 }
@@ -372,7 +375,8 @@ std::vector<std::string> law_lines(const LawComparison& comparison) {
   std::vector<std::string> lines;
   std::size_t width = 4;
   for (const LawOutcome& law : comparison.laws) width = std::max(width, law.name.size());
-  lines.push_back(fmt::format("{:<{}}  numbers       AICc  left-out error  elliptic", "law", width));
+  lines.push_back(
+      fmt::format("{:<{}}  numbers       AICc  left-out error  elliptic", "law", width));
   for (const LawOutcome& law : comparison.laws) {
     if (!law.failed.empty()) {
       lines.push_back(fmt::format("{:<{}}  no optimum: {}", law.name, width, law.failed));
@@ -399,20 +403,21 @@ std::vector<std::string> law_lines(const LawComparison& comparison) {
     *list += law.name;
   }
   if (!alike.empty())
-    lines.push_back(fmt::format("these tests do not tell {} from {}", best.name, alike));
+    lines.push_back(fmt::format("these tests do not distinguish {} from {}", best.name, alike));
   if (!by_likelihood.empty())
-    lines.push_back(fmt::format("{} predicts no worse than {} within chance; AICc tells them apart",
+    lines.push_back(fmt::format("{} predicts no worse than {} within chance; AICc distinguishes them",
                                 by_likelihood, best.name));
   if (comparison.separations.empty()) return lines;
   const Separation& first = comparison.separations.front();
   if (first.deviations < 3) {
-    lines.push_back(fmt::format("no homogeneous test of this range tells {} from {}: the best, {}, "
-                                "by {:.1f} standard deviations of the noise",
-                                best.name, comparison.laws[1].name, first.test, first.deviations));
+    lines.push_back(
+        fmt::format("no homogeneous test of this range separates {} from {}: the best, {}, "
+                    "by {:.1f} standard deviations of the noise",
+                    best.name, comparison.laws[1].name, first.test, first.deviations));
     return lines;
   }
   lines.push_back(fmt::format(
-      "{} and {} would be told apart by {}: one of them would miss it by {:.1f} standard deviations "
+      "{} and {} would be separated by {}: one of them would miss it by {:.1f} standard deviations "
       "of the noise in all",
       best.name, comparison.laws[1].name, first.test, first.deviations));
   return lines;

@@ -26,14 +26,14 @@ struct LawOutcome {
   FitConfig config;  // of a fit with this law alone
   FitProblem problem;
   FitResult fit;
-  std::string failed;                // why there is no optimum; empty: there is one
-  std::vector<double> left_out;      // of each test, share of its largest stress; NaN: unknown
-  double left_out_error = 0;         // root mean square over the tests
-  bool elliptic = false;             // in every state of the tests
-  std::string lost;                  // where it is lost first
-  bool indistinguishable = false;    // from the first
-  bool same_prediction = false;      // as the first, within chance
-  int terms = 0;                     // of a law that was discovered; 0: another
+  std::string failed;              // why there is no optimum; empty: there is one
+  std::vector<double> left_out;    // of each test, share of its largest stress; NaN: unknown
+  double left_out_error = 0;       // root mean square over the tests
+  bool elliptic = false;           // in every state of the tests
+  std::string lost;                // where it is lost first
+  bool indistinguishable = false;  // from the first
+  bool same_prediction = false;    // as the first, within chance
+  int terms = 0;                   // of a law that was discovered; 0: another
 };
 
 struct Separation {
@@ -42,8 +42,8 @@ struct Separation {
 };
 
 struct LawComparison {
-  std::vector<LawOutcome> laws;  // the best first
-  bool by_prediction = false;    // what the order is by
+  std::vector<LawOutcome> laws;         // the best first
+  bool by_prediction = false;           // what the order is by
   std::vector<Separation> separations;  // of the best two, the best test first
 };
 

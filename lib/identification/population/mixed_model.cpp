@@ -136,8 +136,7 @@ class LinearMixed {
       const VecX g = Rr.transpose() * Sd;
       of_omega += P - g * g.transpose();
       const double left = one.values - static_cast<double>(n);
-      of_variance +=
-          variance * (inverse.trace() - Sd.squaredNorm()) + left - one.rest / variance;
+      of_variance += variance * (inverse.trace() - Sd.squaredNorm()) + left - one.rest / variance;
       add_information(P, Q, inverse, left, variance, slopes, value.information);
     }
     value.minus_two_log_likelihood = sum;
@@ -331,8 +330,8 @@ void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const
       const double root = std::sqrt(variance * other);
       const double rho = omega(i, j) / root;
       const double error = error_of([&](const MatX& change) {
-        const double of_rho = change(i, j) / root -
-                              0.5 * rho * (change(i, i) / variance + change(j, j) / other);
+        const double of_rho =
+            change(i, j) / root - 0.5 * rho * (change(i, i) / variance + change(j, j) / other);
         return of_rho / std::max(1e-12, 1 - rho * rho);
       });
       const auto at_j = random[static_cast<std::size_t>(j)];
@@ -344,7 +343,8 @@ void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const
 
 // Keeps deviations between specimens from growing by more than a factor of three at once, and
 // below the largest that is believed in. Linear models are trusted no further.
-VecX limited(const LinearMixed& model, const VecX& next, const MatX& L_before, const VecX& largest) {
+VecX limited(const LinearMixed& model, const VecX& next, const MatX& L_before,
+             const VecX& largest) {
   MatX L = model.factor(next);
   for (Eigen::Index j = 0; j < L.rows(); ++j) {
     const double deviation = L.row(j).norm();
@@ -400,8 +400,8 @@ std::string find_modes(const std::vector<MixedSpecimen>& specimens, const Linear
   return "";
 }
 
-// Moves beta along a step, halved until the cost of modes and scatter does not rise. `share`: of the
-// step that was taken. Returns which specimen has no mode; empty: each has one.
+// Moves beta along a step, halved until the cost of modes and scatter does not rise. `share`: of
+// the step that was taken. Returns which specimen has no mode; empty: each has one.
 std::string take_step(const std::vector<MixedSpecimen>& specimens, const LinearMixed& model,
                       const VecX& x, const std::vector<Eigen::Index>& random,
                       const MixedOptions& options, const VecX& step, MixedResult& result,
@@ -504,7 +504,8 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
     }
     for (Eigen::Index i = 0; i < r; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
-        // a variance that goes to zero changes by any share of itself: there that of the start counts
+        // a variance that goes to zero changes by any share of itself: there that of the start
+        // counts
         const double first = 1e-6 * std::sqrt(omega_start(i, i) * omega_start(j, j));
         const double size = std::sqrt(omega(i, i) * omega(j, j)) + first;
         change = std::max(change, std::abs(omega(i, j) - omega_before(i, j)) / size);
@@ -523,8 +524,8 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
   }
   result.rounds = std::min(result.rounds, options.rounds);
   if (!result.converged && result.unlimited.empty()) {
-    result.why = "modes and population still change after " + std::to_string(options.rounds) +
-                 " rounds";
+    result.why =
+        "modes and population still change after " + std::to_string(options.rounds) + " rounds";
   }
   result.sigma = std::exp(0.5 * x[model.size() - 1]);
   result.omega = MatX::Zero(q, q);

@@ -5,7 +5,7 @@
 // beta: population and effects of covariates. A specimen that says little about a number is drawn
 // towards the population in it, one that says much keeps its own.
 //
-// Estimates are those of Lindstrom and Bates (1990), as of nlme in R: with the modes b_i for given
+// Estimates are those of Lindstrom and Bates [LB90], as of nlme in R: with the modes b_i for given
 // (beta, Omega, sigma) the model is made linear there, whose likelihood has a closed form; both
 // steps are repeated until nothing changes. The likelihood is that of FOCE.
 //   1. b_i = argmin |u_i(A_i beta + b)|^2 / sigma^2 + b^T Omega^-1 b            (Levenberg-Marquardt)
@@ -58,8 +58,8 @@ struct MixedResult : MixedState {
   MatX beta_covariance;                 // (k, k)
   // Of the logarithm of each standard deviation, and of artanh of each correlation: standard
   // errors from Fisher's information. NaN where a number does not vary.
-  VecX log_deviation_error;   // (q)
-  MatX correlation_error;     // (q, q)
+  VecX log_deviation_error;     // (q)
+  MatX correlation_error;       // (q, q)
   std::vector<MatX> explained;  // (q, q) covariance of the modes b_i of each specimen
   int values = 0;
   int likelihood_parameters = 0;  // in beta, Omega and sigma

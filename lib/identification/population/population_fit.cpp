@@ -208,10 +208,9 @@ class Population {
                        const std::vector<Eigen::Index>& columns) {
     std::vector<MixedSpecimen> specimens;
     for (std::size_t i = 0; i < size(); ++i) {
-      specimens.push_back({[this, i](const VecX& phi, VecX& u, MatX* slope) {
-                             return residual(i, phi, u, slope);
-                           },
-                           design_[i](Eigen::all, columns)});
+      specimens.push_back(
+          {[this, i](const VecX& phi, VecX& u, MatX* slope) { return residual(i, phi, u, slope); },
+           design_[i](Eigen::all, columns)});
     }
     MixedOptions options;
     options.varies = varies_;
@@ -224,7 +223,9 @@ class Population {
       if (links_[at].kind != LinkKind::identity) options.largest_deviation[j] = 3;
       if (units_[at] == unit::deg) options.largest_deviation[j] = 60;
     }
-    options.reweigh = [this, kind](const std::vector<VecX>& phi) { reweigh(phi, kind); };
+    options.reweigh = [this, kind](const std::vector<VecX>& phi) {
+      reweigh(phi, kind);
+    };
     MixedResult result = fit_mixed_model(specimens, start, options);
     std::string unlimited;
     for (const Eigen::Index j : result.unlimited)
@@ -285,10 +286,11 @@ class Population {
     if (config_.specimens->scatter == Scatter::full && size() < needed) {
       throw Failure(
           Exit::config,
-          Error{at_("specimens"), "specimens.scatter",
-                fmt::format("{} specimens for the correlations of {} parameters", size(), varying()),
-                fmt::format("{} specimens at least", needed),
-                "scatter: diagonal has no correlations; `shared` names parameters that do not vary"});
+          Error{
+              at_("specimens"), "specimens.scatter",
+              fmt::format("{} specimens for the correlations of {} parameters", size(), varying()),
+              fmt::format("{} specimens at least", needed),
+              "scatter: diagonal has no correlations; `shared` names parameters that do not vary"});
     }
   }
 
@@ -303,8 +305,8 @@ class Population {
         for (Eigen::Index j = 0; j < numbers(); ++j) {
           const auto at = static_cast<std::size_t>(j);
           const auto& on = asked[c].on;
-          const bool wanted = on.empty() ? varies_[at]
-                                         : std::ranges::find(on, keys_[at]) != on.end();
+          const bool wanted =
+              on.empty() ? varies_[at] : std::ranges::find(on, keys_[at]) != on.end();
           if (wanted) columns.push_back({{c, one.names[k], j}, one.values[k]});
         }
       }
@@ -549,10 +551,9 @@ RecordTable population_table(const Population& all, const First& first, const Mi
   RecordTable table;
   table.name = "population";
   table.row = "parameter";
-  for (const char* name :
-       {"population_median", "between_specimen_cv", "lower_95", "upper_95", "cv_lower_95",
-        "cv_upper_95", "new_lower_95", "new_upper_95", "shrinkage", "average_of_fits",
-        "fit_of_mean_curve", "true"})
+  for (const char* name : {"population_median", "between_specimen_cv", "lower_95", "upper_95",
+                           "cv_lower_95", "cv_upper_95", "new_lower_95", "new_upper_95",
+                           "shrinkage", "average_of_fits", "fit_of_mean_curve", "true"})
     table.column(name);
   for (Eigen::Index j = 0; j < all.numbers(); ++j) {
     const auto at = static_cast<std::size_t>(j);
@@ -638,7 +639,8 @@ std::string specimen_csv(Population& all, const First& first, const MixedResult&
   text += ",distance,probability,misfit\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Individual& one = all.individuals_[i];
-    text += fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
+    text +=
+        fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
     const VecX theta = all.backward(all.design_[i] * result.beta + result.b[i]);
     for (const double x : theta) text += fmt::format(",{:.8g}", x);
     for (Eigen::Index j = 0; j < all.numbers(); ++j) {
@@ -673,8 +675,8 @@ void add_effects(Population& all, const MixedResult& result, NoiseKind kind,
       probability = chi_square_beyond(std::max(0., ratio), static_cast<double>(left.size()));
     const std::string& name = all.config_.specimens->covariates[c].column;
     const CovariateColumns& columns = all.covariates_[c];
-    std::string about = fmt::format("the population is that of {} = {:.4g}, the mean", name,
-                                    columns.mean);
+    std::string about =
+        fmt::format("the population is that of {} = {:.4g}, the mean", name, columns.mean);
     if (!columns.reference.empty())
       about = fmt::format("the population is that of {} = {}", name, columns.reference);
     outcome.lines.push_back(fmt::format(
@@ -693,11 +695,10 @@ void add_effects(Population& all, const MixedResult& result, NoiseKind kind,
       const auto at = static_cast<std::size_t>(effect.number);
       double times = not_known;
       if (all.links_[at].kind == LinkKind::log) times = std::exp(value);
-      text += fmt::format("{},{},{:.8g},{:.8g},{:.8g},{},{:.6g},{:.4g}\n", csv_cell(effect.name),
-                          all.names_[at], value, value - s.factor * error,
-                          value + s.factor * error,
-                          std::isfinite(times) ? fmt::format("{:.8g}", times) : "", ratio,
-                          probability);
+      text +=
+          fmt::format("{},{},{:.8g},{:.8g},{:.8g},{},{:.6g},{:.4g}\n", csv_cell(effect.name),
+                      all.names_[at], value, value - s.factor * error, value + s.factor * error,
+                      std::isfinite(times) ? fmt::format("{:.8g}", times) : "", ratio, probability);
     }
   }
   outcome.files.push_back({"effects.csv", text});
@@ -732,8 +733,8 @@ std::string prediction_csv(const Population& all, const MixedResult& result) {
         for (std::size_t k = 0; k < stress.size(); ++k) drawn[k].push_back(stress[k]);
       }
       for (std::size_t k = 0; k < test.points(); ++k) {
-        text += fmt::format("{},{:.8g},{:.8g}", csv_cell(test.name), test.first[k],
-                            test.second_at(k));
+        text +=
+            fmt::format("{},{:.8g},{:.8g}", csv_cell(test.name), test.first[k], test.second_at(k));
         for (const std::size_t at : {k, test.points() + k}) {
           if (at >= drawn.size()) {
             text += ",,,";
@@ -761,8 +762,8 @@ void set_record(Population& all, const MixedResult& result, const NoiseModel& no
     const NumberSummary s = summary_of(all, result, j);
     const FreeParameter& free = all.individuals_.front().problem.free[at];
     slope[j] = all.links_[at].slope(result.beta[j]);
-    FittedParameter p{all.names_[at], all.units_[at], s.median, free.lower, free.upper,
-                      std::abs(slope[j]) * s.error};
+    FittedParameter p{all.names_[at], all.units_[at], s.median,
+                      free.lower,     free.upper,     std::abs(slope[j]) * s.error};
     p.key = all.keys_[at];
     p.factor = s.factor;
     p.low = s.of_median.low;
@@ -861,10 +862,11 @@ PopulationOutcome fit_population(const FitConfig& config,
   NoiseModel noise;
   const MixedResult result = estimate(all, first.state, noise, say);
   if (!result.converged) {
-    throw Failure(Exit::not_converged,
-                  Error{at("specimens"), "specimens", result.why, "",
-                        "name parameters that the tests hardly know under `shared`, or leave them out of "
-                        "`parameters`; scatter: diagonal has fewer numbers"});
+    throw Failure(
+        Exit::not_converged,
+        Error{at("specimens"), "specimens", result.why, "",
+              "name parameters that the tests hardly know under `shared`, or leave them out of "
+              "`parameters`; scatter: diagonal has fewer numbers"});
   }
   PopulationOutcome outcome;
   outcome.median = with_parameters(all.individuals_.front().problem,

@@ -180,8 +180,8 @@ class Sampler {
       apart = goes_apart(grown.velocity_end, whole.velocity_end, sum);
       apart = apart && goes_apart(grown.velocity_begin, whole.velocity_end,
                                   whole.sum + grown.momentum_begin);
-      apart = apart &&
-              goes_apart(grown.velocity_end, whole.velocity_begin, grown.sum + whole.momentum_begin);
+      apart = apart && goes_apart(grown.velocity_end, whole.velocity_begin,
+                                  grown.sum + whole.momentum_begin);
       whole.momentum_begin = grown.momentum_end;
       whole.velocity_begin = grown.velocity_end;
     }
@@ -202,7 +202,8 @@ class Sampler {
 // Nesterov's dual averaging of ln(step), as in [HG14].
 class StepAdaption {
  public:
-  explicit StepAdaption(double step, double target) : centre_(std::log(10 * step)), target_(target) {}
+  explicit StepAdaption(double step, double target)
+      : centre_(std::log(10 * step)), target_(target) {}
 
   double next(double acceptance) {
     ++count_;

@@ -4,8 +4,8 @@
 // friction; the path is doubled until it begins to turn back, and one of its points is drawn. Steps
 // are as long as the accuracy of the path allows, so that neighbouring samples are almost
 // independent even where parameters are correlated.
-// Multinomial variant [B17] of the sampler of Hoffman and Gelman (2014), step size by dual averaging,
-// dense metric. Chain and seed alone decide the samples, not the number of threads.
+// Multinomial variant [B17] of the sampler of Hoffman and Gelman (2014), step size by dual
+// averaging, dense metric. Chain and seed alone decide the samples, not the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct NutsOptions {
 };
 
 struct NutsChain {
-  MatX draws;         // (samples, n)
-  VecX log_density;   // (samples)
+  MatX draws;           // (samples, n)
+  VecX log_density;     // (samples)
   int divergences = 0;  // paths whose energy went astray: p is steeper there than the steps resolve
   int longest = 0;      // paths that were cut at the deepest level
   double step = 0, acceptance = 0;

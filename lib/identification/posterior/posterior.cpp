@@ -211,7 +211,9 @@ Posterior posterior(const FitProblem& problem, const FitResult& fit, const Poste
         options.seed = static_cast<std::uint64_t>(config.seed);
         options.chain = static_cast<std::uint64_t>(chain);
         options.acceptance = config.acceptance;
-        const LogDensity of_fit = [&](const VecX& x, VecX& g) { return density(x, g); };
+        const LogDensity of_fit = [&](const VecX& x, VecX& g) {
+          return density(x, g);
+        };
         chains[static_cast<std::size_t>(chain)] = sample_chain(of_fit, begin, scale, options);
       },
       [&](int, int chain) {
@@ -262,9 +264,9 @@ std::string posterior_csv(const Posterior& posterior) {
 
 std::vector<std::string> posterior_lines(const Posterior& posterior) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("posterior: {} samples of {} chains, acceptance {:.2f}, {} divergences",
-                              posterior.samples.rows(), posterior.chains, posterior.acceptance,
-                              posterior.divergences));
+  lines.push_back(fmt::format(
+      "posterior: {} samples of {} chains, acceptance {:.2f}, {} divergences",
+      posterior.samples.rows(), posterior.chains, posterior.acceptance, posterior.divergences));
   RecordTable table = posterior.table;
   for (std::size_t j = 0; j < posterior.names.size(); ++j)
     lines.push_back(fmt::format(
@@ -284,9 +286,10 @@ std::vector<std::string> posterior_warnings(const Posterior& posterior) {
           posterior.names[j], posterior.r_hat[j], posterior.effective[j]));
   }
   if (posterior.divergences > 0)
-    lines.push_back(fmt::format("{} paths of the posterior diverged: acceptance: 0.95 takes smaller "
-                                "steps; a number that rests on its bound makes such places",
-                                posterior.divergences));
+    lines.push_back(
+        fmt::format("{} paths of the posterior diverged: acceptance: 0.95 takes smaller "
+                    "steps; a number that rests on its bound makes such places",
+                    posterior.divergences));
   return lines;
 }
 

@@ -1,9 +1,9 @@
 // How probable which parameters are, after a fit: samples of the posterior.
 //
-// Where a model is not straight over the uncertainty of its parameters, an estimate and its standard
-// errors say too little: the posterior has a shape. Its density is that of the likelihood of the fit
-// (under its noise model, the deviation of the noise integrated over 1/sigma), times the priors, over
-// the box of the parameters:
+// Where a model is not straight over the uncertainty of its parameters, an estimate and its
+// standard errors say too little: the posterior has a shape. Its density is that of the likelihood
+// of the fit (under its noise model, the deviation of the noise integrated over 1/sigma), times the
+// priors, over the box of the parameters:
 //   p(theta) ~ |u(theta)|^-N prior(theta)        exp(-|u|^2/2) prior(theta) where weights are believed in
 // For a straight model and no prior this is Student's distribution, whose quantiles are the
 // intervals of the profile.

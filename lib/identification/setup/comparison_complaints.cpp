@@ -48,8 +48,7 @@ void complain_of_laws(const FitConfig& config, std::vector<Complaint>& all) {
     const std::string& name = config.laws[i];
     const std::string at = fmt::format("laws[{}]", i);
     if (std::find(known.begin(), known.end(), name) == known.end())
-      all.push_back({at, "found \"" + name + "\"",
-                     fmt::format("one of {}", fmt::join(known, ", ")),
+      all.push_back({at, "found \"" + name + "\"", fmt::format("one of {}", fmt::join(known, ", ")),
                      did_you_mean(nearest(name, known))});
     if (!seen.insert(name).second)
       all.push_back({at, "\"" + name + "\" a second time", "each law once", ""});

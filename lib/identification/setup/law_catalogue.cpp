@@ -81,9 +81,10 @@ CatalogueLaw made(const Entry& entry, bool two) {
       fibres = "[{" + family + "}, {" + fibre + ", alpha: -40}]";
     }
   }
-  one.law = material_of(
-      fmt::format("matrix: {}\nfibres: {}\n{}\n", entry.matrix, fibres, volume_text));
-  for (const std::string& key : words(entry.numbers)) one.parameters.push_back({key, {}, {}, {}, {}});
+  one.law =
+      material_of(fmt::format("matrix: {}\nfibres: {}\n{}\n", entry.matrix, fibres, volume_text));
+  for (const std::string& key : words(entry.numbers))
+    one.parameters.push_back({key, {}, {}, {}, {}});
   if (fibre.empty()) return one;
   for (const std::string& key : words(entry.of_fibre)) {
     one.parameters.push_back({"fibres[0]." + key, {}, {}, {}, {}});
@@ -102,9 +103,9 @@ CatalogueLaw made(const Entry& entry, bool two) {
 // A term of a library: its modulus is the number that decides whether it is there.
 struct Term {
   const char* name;
-  const char* group;   // terms of one group are numbers of one energy
-  const char* text;    // start values of the group's energy if it is there
-  const char* number;  // modulus
+  const char* group;    // terms of one group are numbers of one energy
+  const char* text;     // start values of the group's energy if it is there
+  const char* number;   // modulus
   const char* further;  // numbers of its own beside the modulus
 };
 
@@ -220,8 +221,8 @@ std::optional<CatalogueLaw> law_of_terms(const std::vector<std::string>& chosen)
       one.parameters.push_back({at + key, {}, {}, {}, {}});
     ++family;
   }
-  one.law = material_of(
-      fmt::format("matrix: {{{}}}\nfibres: [{}]\n{}\n", matrix, fibres, volume_text));
+  one.law =
+      material_of(fmt::format("matrix: {{{}}}\nfibres: [{}]\n{}\n", matrix, fibres, volume_text));
   for (const std::string& name : term_names()) {
     if (!has(chosen, name)) continue;
     if (!one.name.empty()) one.name += " + ";

@@ -33,7 +33,8 @@ struct PriorConfig {
       all.push_back({"", "found " + std::to_string(given) + " of normal, lognormal, file",
                      "one of them", "prior: {normal: [2.0, 0.1]}"});
     if (normal && !((*normal)[1] > 0))
-      all.push_back({"normal", "a standard deviation that is not above 0", "[mean, deviation]", ""});
+      all.push_back(
+          {"normal", "a standard deviation that is not above 0", "[mean, deviation]", ""});
     if (lognormal && !((*lognormal)[0] > 0 && (*lognormal)[1] > 0))
       all.push_back({"lognormal", "a number that is not above 0",
                      "[median, standard deviation of the logarithm]", ""});

@@ -60,12 +60,12 @@ std::vector<Prior> priors_of(const FitConfig& config, const FitProblem& problem,
       prior.centre = std::log((*asked->lognormal)[0]);
       prior.deviation = (*asked->lognormal)[1];
     } else if (!read_prior(read_material(asked->file.path), key, prior)) {
-      throw Failure(Exit::config,
-                    Error{at(place), place,
-                          fmt::format("{} says nothing of {}", asked->file.path, key),
-                          "material.h5 of a fit with this parameter and its standard error, or of a "
-                          "population",
-                          ""});
+      throw Failure(
+          Exit::config,
+          Error{at(place), place, fmt::format("{} says nothing of {}", asked->file.path, key),
+                "material.h5 of a fit with this parameter and its standard error, or of a "
+                "population",
+                ""});
     }
     priors.push_back(prior);
   }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/csv_table.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "identification/setup/specimen.hpp"
@@ -27,8 +28,8 @@ namespace {
 }
 
 // columns of the table that are keys of an item of `data`
-constexpr std::array sizes{"width", "thickness", "gauge_length", "width_z", "gauge_length_z",
-                           "fibre_angle"};
+constexpr std::array sizes{"width",   "thickness",      "gauge_length",
+                           "width_z", "gauge_length_z", "fibre_angle"};
 
 std::string text_of(const Tree& tree, const std::string& key, const std::string& otherwise) {
   const Tree* value = tree.find(key);
@@ -94,9 +95,9 @@ struct FoundFile {
 };
 
 // Files below `folder` whose path fits the pattern, in the order of their names.
-void find_files(const fs::path& folder, const fs::path& shown, const std::vector<std::string>& parts,
-                std::size_t at, const std::map<std::string, std::string>& names,
-                std::vector<FoundFile>& found) {
+void find_files(const fs::path& folder, const fs::path& shown,
+                const std::vector<std::string>& parts, std::size_t at,
+                const std::map<std::string, std::string>& names, std::vector<FoundFile>& found) {
   const std::string& part = parts[at];
   const bool last = at + 1 == parts.size();
   const auto take = [&](const fs::path& name, const std::map<std::string, std::string>& known) {
@@ -256,8 +257,8 @@ struct Expansion {
       for (const Tree::Entry& one : where->map)
         texts.push_back(substituted(one.value.scalar, table, row));
       if (!measured.count(texts))
-        refuse_without_test(row, fmt::format("rows with {} in {}", fmt::join(texts, ", "),
-                                             pattern.scalar));
+        refuse_without_test(
+            row, fmt::format("rows with {} in {}", fmt::join(texts, ", "), pattern.scalar));
       wanted.insert(texts);
       add_item(row, pattern.scalar, "");
     }
@@ -289,7 +290,8 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
   if (id == csv.header.cells.size()) {
     if (id_column != "id")
       refuse({path, csv.header.line, 1}, "specimens.id",
-             fmt::format("no column is called {}", id_column), "one of " + fmt::format("{}", fmt::join(table.columns, ", ")),
+             fmt::format("no column is called {}", id_column),
+             "one of " + fmt::format("{}", fmt::join(table.columns, ", ")),
              did_you_mean(nearest(id_column, table.columns)));
     id = 0;
   }
@@ -309,7 +311,7 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
     const Place place = table.rows.empty() ? Place{path, csv.header.line, 1} : table.rows.front();
     refuse(place, "specimens.table",
            fmt::format("{} specimen{}", table.ids.size(), plural_s(table.ids.size())),
-           "two at least, of which a scatter can be told",
+           "two at least, for a scatter between them",
            "a fit of one specimen has its tests under `data` and no `specimens`");
   }
   return table;
@@ -352,8 +354,7 @@ CovariateColumns covariate_columns(const SpecimenTable& table, const std::string
     return result;
   }
   if (2 * different.size() > texts.size())
-    refuse(head, column,
-           fmt::format("{} words for {} specimens", different.size(), texts.size()),
+    refuse(head, column, fmt::format("{} words for {} specimens", different.size(), texts.size()),
            "groups of several specimens each, or numbers", "");
   result.reference = *different.begin();
   for (const std::string& word : different) {
@@ -371,8 +372,7 @@ void expand_specimens(Tree& config) {
   if (!specimens || specimens->kind != Tree::Kind::map) return;
   const Tree* path = specimens->find("table");
   const Tree* pattern = specimens->find("data");
-  if (!path || !pattern || path->kind != Tree::Kind::scalar ||
-      pattern->kind != Tree::Kind::scalar)
+  if (!path || !pattern || path->kind != Tree::Kind::scalar || pattern->kind != Tree::Kind::scalar)
     return;
   std::vector<Tree> templates;
   if (const Tree* data = config.find("data")) {
@@ -382,6 +382,9 @@ void expand_specimens(Tree& config) {
     }
   }
   const fs::path table = (fs::path(path->base) / path->scalar).lexically_normal();
+  if (const std::string reason = unreadable_reason(table.string()); !reason.empty())
+    refuse(path->place, "specimens.table", table.string() + ": " + reason,
+           "a CSV file with a row for each specimen");
   Expansion all{*specimens,
                 *pattern,
                 pattern->base,
@@ -396,7 +399,8 @@ void expand_specimens(Tree& config) {
   }
   if (const Tree* covariates = specimens->find("covariates")) {
     for (const Tree& one : covariates->list) {
-      const std::string column = one.kind == Tree::Kind::map ? text_of(one, "column", "") : one.scalar;
+      const std::string column =
+          one.kind == Tree::Kind::map ? text_of(one, "column", "") : one.scalar;
       covariate_columns(all.table, column, one.place);
     }
   }

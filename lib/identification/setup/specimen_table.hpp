@@ -17,7 +17,7 @@
 namespace langer {
 
 struct SpecimenTable {
-  std::vector<std::string> ids;                            // in the order of the rows
+  std::vector<std::string> ids;                           // in the order of the rows
   std::map<std::string, std::vector<std::string>> texts;  // of each column, by row
   std::map<std::string, Place> heads;                     // of each column
   std::vector<Place> rows;
@@ -33,8 +33,8 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
 struct CovariateColumns {
   std::vector<std::string> names;  // age, site=ventral
   std::vector<std::vector<double>> values;
-  double mean = 0;             // of numbers
-  std::string reference;       // the word that the others are compared with
+  double mean = 0;        // of numbers
+  std::string reference;  // the word that the others are compared with
 };
 CovariateColumns covariate_columns(const SpecimenTable& table, const std::string& column,
                                    const Place& asked_at);

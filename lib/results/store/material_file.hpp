@@ -95,8 +95,8 @@ struct FitRecord {
   std::vector<Tie> ties;  // parameters of the material that follow others
   StudyRecord study;      // as read: fitted range, verdict and safe radius
   MatX sets;              // (n, p) as read: parameters of the study's bootstrap; empty without it
-  std::vector<RecordTable> tables;              // of comparisons, populations and posteriors
-  std::optional<PopulationRecord> population;   // of a fit to many specimens
+  std::vector<RecordTable> tables;             // of comparisons, populations and posteriors
+  std::optional<PopulationRecord> population;  // of a fit to many specimens
 };
 
 // cov_ij / (s_i s_j); NaN if a parameter is not determined or has no variance (exact data).

@@ -48,8 +48,7 @@ PopulationRecord read_population(const h5::Group& root) {
   population.units = lines_in(group, "units");
   population.links = lines_in(group, "links");
   const std::size_t n = population.names.size();
-  if (population.keys.size() != n || population.units.size() != n ||
-      population.links.size() != n) {
+  if (population.keys.size() != n || population.units.size() != n || population.links.size() != n) {
     group.refuse("names", "attributes of different length", "one line for each parameter");
   }
   population.lower = group.read_finite("lower", {n});
