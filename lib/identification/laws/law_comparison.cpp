@@ -403,7 +403,7 @@ std::vector<std::string> law_lines(const LawComparison& comparison) {
     *list += law.name;
   }
   if (!alike.empty())
-    lines.push_back(fmt::format("these tests cannot distinguish {} from {}", best.name, alike));
+    lines.push_back(fmt::format("these tests do not distinguish {} from {}", best.name, alike));
   if (!by_likelihood.empty())
     lines.push_back(
         fmt::format("{} predicts no worse than {} within chance; AICc distinguishes them",
@@ -418,7 +418,7 @@ std::vector<std::string> law_lines(const LawComparison& comparison) {
     return lines;
   }
   lines.push_back(fmt::format(
-      "{} and {} would be distinguished by {}: one of them would miss it by {:.1f} standard deviations "
+      "{} and {} would be separated by {}: one of them would miss it by {:.1f} standard deviations "
       "of the noise in all",
       best.name, comparison.laws[1].name, first.test, first.deviations));
   return lines;

@@ -511,14 +511,6 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
         change = std::max(change, std::abs(omega(i, j) - omega_before(i, j)) / size);
       }
     }
-    if (std::getenv("SPEC_DEBUG")) {
-      fprintf(stderr, "round %d share %.3g change %.2g sigma %.3g beta", result.rounds, share,
-              change, std::exp(0.5 * x[model.size() - 1]));
-      for (double v : result.beta) fprintf(stderr, " %.4g", v);
-      fprintf(stderr, " sd");
-      for (Eigen::Index j = 0; j < r; ++j) fprintf(stderr, " %.3g", L.row(j).norm());
-      fprintf(stderr, "\n");
-    }
     if (change < options.tolerance) {
       result.converged = true;
       break;

@@ -5,7 +5,7 @@
 // beta: population and effects of covariates. A specimen that says little about a number is drawn
 // towards the population in it, one that says much keeps its own.
 //
-// Estimates are those of Lindstrom and Bates (1990), as of nlme in R: with the modes b_i for given
+// Estimates are those of Lindstrom and Bates [LB90], as of nlme in R: with the modes b_i for given
 // (beta, Omega, sigma) the model is made linear there, whose likelihood has a closed form; both
 // steps are repeated until nothing changes. The likelihood is that of FOCE.
 //   1. b_i = argmin |u_i(A_i beta + b)|^2 / sigma^2 + b^T Omega^-1 b            (Levenberg-Marquardt)
@@ -35,7 +35,7 @@ struct MixedOptions {
   // (q) deviation between specimens beyond which a number counts as not known; empty: none
   VecX largest_deviation = {};
   int threads = 1;
-  int rounds = 200;
+  int rounds = 60;
   double tolerance = 1e-7;  // change of beta in standard errors, and relative change of Omega
   // called at the modes of each round: residuals may change their weights there
   std::function<void(const std::vector<VecX>& phi)> reweigh = {};

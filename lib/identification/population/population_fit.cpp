@@ -452,17 +452,6 @@ First first_estimates(Population& all) {
   for (const Individual& one : all.individuals_)
     largest = std::max(largest, one.measured.cwiseAbs().maxCoeff());
   first.state.sigma = std::max(first.state.sigma, 1e-6 * largest);
-  if (std::getenv("SPEC_DEBUG")) {
-    for (double v : mean.best.p) fprintf(stderr, " %.4g", v);
-    fprintf(stderr, " mean fit\n");
-    for (const VecX& p : first.fits) {
-      for (double v : p) fprintf(stderr, " %.4g", v);
-      fprintf(stderr, "\n");
-    }
-    for (Eigen::Index j = 0; j < q; ++j)
-      fprintf(stderr, " %.4g(%.3g)", centre[j], std::sqrt(omega(j, j)));
-    fprintf(stderr, " start, sigma %.4g\n", first.state.sigma);
-  }
   return first;
 }
 

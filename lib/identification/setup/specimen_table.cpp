@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/csv_table.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/text.hpp"
 #include "core/config/writer.hpp"
 #include "identification/setup/specimen.hpp"
@@ -310,7 +311,7 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
     const Place place = table.rows.empty() ? Place{path, csv.header.line, 1} : table.rows.front();
     refuse(place, "specimens.table",
            fmt::format("{} specimen{}", table.ids.size(), plural_s(table.ids.size())),
-           "two at least, from which a scatter can be estimated",
+           "two at least, for a scatter between them",
            "a fit of one specimen has its tests under `data` and no `specimens`");
   }
   return table;
@@ -381,6 +382,9 @@ void expand_specimens(Tree& config) {
     }
   }
   const fs::path table = (fs::path(path->base) / path->scalar).lexically_normal();
+  if (const std::string reason = unreadable_reason(table.string()); !reason.empty())
+    refuse(path->place, "specimens.table", table.string() + ": " + reason,
+           "a CSV file with a row for each specimen");
   Expansion all{*specimens,
                 *pattern,
                 pattern->base,
