@@ -16,7 +16,8 @@ LAUNCH   ?=
 
 # SANITIZE=1 and TRAPS=1 build in folders of their own
 build   := build$(if $(SANITIZE),-sanitize)$(if $(TRAPS),-traps)
-options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON) $(if $(WERROR),-DLANGER_WERROR=ON)
+options := $(if $(SANITIZE),-DLANGER_SANITIZE=ON) $(if $(TRAPS),-DLANGER_TRAPS=ON) $(if $(WERROR),-DLANGER_WERROR=ON) \
+  $(if $(CCACHE),-DCCACHE=$(CCACHE))
 run      = runs/$(basename $(notdir $(PIPELINE)))
 programs := $(patsubst langer-langer,langer,$(patsubst stages/%.cpp,langer-%,$(wildcard stages/*.cpp)))
 packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev libyaml-cpp-dev libhdf5-dev libgmsh-dev \

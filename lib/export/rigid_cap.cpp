@@ -10,7 +10,7 @@ namespace langer {
 namespace {
 
 // Components that are rounding errors become 0.
-double without_rounding(double x) {
+double direction_without_rounding(double x) {
   if (std::abs(x) < 1e-12) return 0;
   return x;
 }
@@ -85,7 +85,7 @@ RigidCap rigid_cap(const Ball& sphere, const Vec3& towards, const std::vector<Ve
       for (int& c : corners) {
         if (number[c] < 0) {
           number[c] = static_cast<int>(cap.outer.size());
-          const Vec3 d = direction[c].unaryExpr(&without_rounding);
+          const Vec3 d = direction[c].unaryExpr(&direction_without_rounding);
           cap.outer.push_back(centre + raised * d);
           cap.inner.push_back(centre + 0.8 * R * d);
         }

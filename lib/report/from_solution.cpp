@@ -128,7 +128,7 @@ void judge_errors(const AddVerdict& add, const std::vector<Summary>& summary, do
 }
 
 // A quantity of the summary; 0 if the solution does not have it.
-double summary_value(const std::vector<Summary>& summary, const std::string& name) {
+double value_or_zero(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return 0;
   return found->value;
@@ -136,14 +136,14 @@ double summary_value(const std::vector<Summary>& summary, const std::string& nam
 
 // Warnings of langer-solve about contact: an indenter between nodes, or one that misses the body.
 void judge_resolution(const AddVerdict& add, const std::vector<Summary>& summary) {
-  const double warnings = summary_value(summary, "contact_warnings");
+  const double warnings = value_or_zero(summary, "contact_warnings");
   if (!(warnings > 0)) return;
   add(Level::warning,
       fmt::format("contact is not resolved by the mesh, or an indenter missed the body (see the "
                   "{:g} warnings of langer-solve): between nodes an indenter is up to {:.3g} mm "
                   "inside the body, {:.0f} % of its indentation depth",
-                  warnings, summary_value(summary, "penetration_between_nodes"),
-                  100 * summary_value(summary, "penetration_share")));
+                  warnings, value_or_zero(summary, "penetration_between_nodes"),
+                  100 * value_or_zero(summary, "penetration_share")));
 }
 
 // Equilibrium of all steps.

@@ -61,7 +61,7 @@ bool all_share(const std::vector<std::vector<std::string>>& paths, std::size_t p
 }
 
 // A quantity of a summary; NaN if the file does not have it.
-double summary_value(const std::vector<Summary>& summary, const std::string& name) {
+double value_or_nan(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return std::numeric_limits<double>::quiet_NaN();
   return found->value;
@@ -117,7 +117,7 @@ void add_summaries(ReportPage& page, const std::string& title, const std::vector
   for (std::size_t i = 0; i < sources.size(); ++i) {
     std::vector<Cell> row{sources[i].label};
     for (std::size_t c = 1; c < table.columns.size(); ++c)
-      row.push_back(summary_value(all[i], table.columns[c].name));
+      row.push_back(value_or_nan(all[i], table.columns[c].name));
     table.rows.push_back(std::move(row));
   }
   page.tables.push_back(std::move(table));

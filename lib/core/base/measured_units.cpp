@@ -10,14 +10,14 @@ namespace langer {
 
 namespace {
 
-constexpr const char* blanks = " \t_";
+constexpr const char* unit_separators = " \t_";
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(blanks);
+std::string without_separators(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(unit_separators);
   if (first == std::string::npos) {
     return "";
   }
-  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+  return text.substr(first, text.find_last_not_of(unit_separators) + 1 - first);
 }
 
 bool is_enclosed(const std::string& text, char open, char close) {
@@ -25,9 +25,9 @@ bool is_enclosed(const std::string& text, char open, char close) {
 }
 
 std::string without_brackets(const std::string& text) {
-  const std::string inner = trimmed(text);
+  const std::string inner = without_separators(text);
   if (is_enclosed(inner, '(', ')') || is_enclosed(inner, '[', ']')) {
-    return trimmed(inner.substr(1, inner.size() - 2));
+    return without_separators(inner.substr(1, inner.size() - 2));
   }
   return inner;
 }
@@ -107,9 +107,9 @@ bool may_follow_blank(const MeasuredUnit& unit, const std::string& text) {
 // "Kraft/N", "sigma/MPa", "Spannung/N/mm2": the first slash behind which a unit stands.
 std::optional<Heading> split_at_slash(const std::string& name) {
   for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
-    const std::string words = trimmed(name.substr(0, at));
+    const std::string words = without_separators(name.substr(0, at));
     const std::string unit = without_brackets(name.substr(at + 1));
-    const std::size_t last_word = words.find_last_of(blanks);
+    const std::size_t last_word = words.find_last_of(unit_separators);
     std::string before;
     if (last_word == std::string::npos) {
       before = "";
@@ -146,20 +146,21 @@ Heading split_heading(const std::string& name) {
   if (name.ends_with(')') || name.ends_with(']')) {
     const std::size_t open = name.rfind(name.ends_with(')') ? '(' : '[');
     if (open != std::string::npos && open > 0) {
-      return {trimmed(name.substr(0, open)), without_brackets(name.substr(open))};
+      return {without_separators(name.substr(0, open)), without_brackets(name.substr(open))};
     }
   }
   // "Extension / mm", "Strain in %"
   for (const std::string between : {" / ", " in "}) {
     const std::size_t at = name.rfind(between);
     if (at != std::string::npos) {
-      return {trimmed(name.substr(0, at)), trimmed(name.substr(at + between.size()))};
+      return {without_separators(name.substr(0, at)),
+              without_separators(name.substr(at + between.size()))};
     }
   }
   // "Fz, gf"
   const std::size_t comma = name.rfind(',');
   if (comma != std::string::npos && comma > 0 && measured_unit(name.substr(comma + 1))) {
-    return {trimmed(name.substr(0, comma)), without_brackets(name.substr(comma + 1))};
+    return {without_separators(name.substr(0, comma)), without_brackets(name.substr(comma + 1))};
   }
   // "force_N", "Dehnung %"
   const std::size_t blank = name.find_last_of("_ ");
@@ -167,13 +168,13 @@ Heading split_heading(const std::string& name) {
     const std::string end = name.substr(blank + 1);
     const auto unit = measured_unit(end);
     if (unit && may_follow_blank(*unit, end)) {
-      return {trimmed(name.substr(0, blank)), end};
+      return {without_separators(name.substr(0, blank)), end};
     }
   }
   if (const auto heading = split_at_slash(name)) {
     return *heading;
   }
-  return {trimmed(name), ""};
+  return {without_separators(name), ""};
 }
 
 std::string time_unit_text(const std::string& name, const std::string& unit_below) {

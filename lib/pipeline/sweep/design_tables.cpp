@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/base/text.hpp"
+#include "pipeline/sweep/table_cell.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer {
@@ -65,11 +66,6 @@ const Value& named(const std::vector<Value>& all, std::string_view name) {
   return *std::ranges::find(all, name, &Value::name);
 }
 
-std::string cell(double x) {
-  if (std::isnan(x)) return "";
-  return number_text(x);
-}
-
 // Bars of some effects: a group for each parameter, with one bar for each effect. series: name of
 // the effect, and its name in the legend.
 Bars bars_of(const Design& design, const QuantityEffects& e,
@@ -119,8 +115,8 @@ std::string effects_csv(const Design& design, const std::vector<QuantityEffects>
             text += fmt::format(",{}", v.name);
           }
         }
-        rows += "," + cell(v.value);
-        if (interval) rows += "," + cell(v.low) + "," + cell(v.high);
+        rows += "," + table_cell(v.value);
+        if (interval) rows += "," + table_cell(v.low) + "," + table_cell(v.high);
       }
       headed = true;
       rows += "\n";

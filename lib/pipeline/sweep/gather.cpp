@@ -8,6 +8,7 @@
 
 #include "core/base/text.hpp"
 #include "core/config/writer.hpp"
+#include "pipeline/sweep/table_cell.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer {
@@ -64,11 +65,6 @@ SweepColumn column(const std::string& name, const std::vector<GatherInput>& memb
   return c;
 }
 
-std::string cell(double x) {
-  if (std::isnan(x)) return "";
-  return number_text(x);
-}
-
 }  // namespace
 
 // The order of members is that of the files, which plan makes that of the axes.
@@ -95,7 +91,7 @@ std::string csv(const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.members.size(); ++i) {
     words.clear();
     for (const SweepAxis& a : sweep.axes) words.push_back(csv_cell(a.values[i]));
-    for (const SweepColumn& c : sweep.columns) words.push_back(cell(c.values[i]));
+    for (const SweepColumn& c : sweep.columns) words.push_back(table_cell(c.values[i]));
     text += fmt::format("{}\n", fmt::join(words, ","));
   }
   return text;

@@ -11,6 +11,7 @@
 #include "core/base/quantile.hpp"
 #include "core/base/text.hpp"
 #include "core/config/writer.hpp"
+#include "pipeline/sweep/table_cell.hpp"
 
 namespace langer {
 
@@ -62,11 +63,6 @@ double value_in(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return std::nan("");
   return found->value;
-}
-
-std::string cell(double x) {
-  if (std::isnan(x)) return "";
-  return number_text(x);
 }
 
 // The 95 % intervals as pairs (low, high).
@@ -138,12 +134,13 @@ std::string spread_csv(const std::vector<Spread>& all) {
   for (const std::string& name : names) text += "," + csv_cell("without_" + name);
   text += "\n";
   for (const Spread& one : all) {
-    text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit), cell(one.mean),
-                        cell(one.deviation), cell(one.low), cell(one.high));
+    text += fmt::format("{},{},{},{},{},{}", csv_cell(one.name), csv_cell(one.unit),
+                        table_cell(one.mean), table_cell(one.deviation), table_cell(one.low),
+                        table_cell(one.high));
     for (const std::string& name : names) {
       const auto part = std::ranges::find(one.parts, name, &Spread::Part::name);
       text += ",";
-      if (part != one.parts.end()) text += cell(part->without);
+      if (part != one.parts.end()) text += table_cell(part->without);
     }
     text += "\n";
   }

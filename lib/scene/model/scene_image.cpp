@@ -13,8 +13,6 @@ namespace langer {
 
 namespace {
 
-constexpr double same = same_place;
-
 // visits a listing: whether all members are equal
 template <class T>
 struct EqualMembers {
@@ -45,7 +43,7 @@ bool same_families(const std::vector<Fibre>& families, const Isometry& op, std::
     const Vec3 turned = op.turn * a[k];
     std::size_t j = 0;
     const auto is_image = [&] {
-      return !taken[j] && std::min((turned - b[j]).norm(), (turned + b[j]).norm()) <= same &&
+      return !taken[j] && std::min((turned - b[j]).norm(), (turned + b[j]).norm()) <= same_place &&
              same_law(families[k], families[j]);
     };
     while (j < b.size() && !is_image()) ++j;
@@ -68,13 +66,13 @@ std::string broken_fibres(const MeshImage& g, const Isometry& op, const Mesh& me
 // of one component of a displacement, whose sign the symmetry keeps or changes
 bool is_image(const Prescribed& image, const Prescribed& of, double sign) {
   const auto near = [&](double a, double b, double size) {
-    return std::abs(a - sign * b) <= same * size;
+    return std::abs(a - sign * b) <= same_place * size;
   };
   if (!near(image.value, of.value, std::abs(of.value)) || !same_factor(image.factor, of.factor))
     return false;
   if (!image.turn || !of.turn) return !image.turn && !of.turn;
   const Turn &a = *image.turn, &b = *of.turn;
-  const double size = b.radius() + same;  // a component of a node on the axis is rounding
+  const double size = b.radius() + same_place;  // a component of a node on the axis is rounding
   return a.angle == b.angle && near(a.along, b.along, size) && near(a.across, b.across, size);
 }
 
@@ -110,7 +108,7 @@ std::vector<std::array<int, 4>> facet_keys(const Mesh& mesh, const SurfaceLoad& 
 
 bool is_image(const SurfaceLoad& image, const SurfaceLoad& of, const MeshImage& g) {
   const double change = (image.traction - g.turn * of.traction).norm();
-  return change <= same * of.traction.norm() && image.pressure == of.pressure &&
+  return change <= same_place * of.traction.norm() && image.pressure == of.pressure &&
          same_factor(image.factor, of.factor);
 }
 
@@ -150,7 +148,7 @@ bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry&
   return same_factor(angle.factor, image.factor) &&
          (hand * angle.value * (op.turn * a.rotation->axis.along) -
           image.value * b.rotation->axis.along)
-                 .norm() <= same * std::abs(angle.value);
+                 .norm() <= same_place * std::abs(angle.value);
 }
 
 // what keeps b from being the image of a; empty where nothing
@@ -161,9 +159,10 @@ std::string difference(const RigidContact& a, const RigidContact& b, const MeshI
   if (a.mu != b.mu) return fmt::format("the friction of the indenter \"{}\"", a.name);
   if (a.adhesion != b.adhesion) return fmt::format("the adhesion of the indenter \"{}\"", a.name);
   const bool both_free = !a.control && !b.control;
-  const bool alike = both_free || (a.control && b.control && a.name == b.name &&
-                                   a.control->force == b.control->force &&
-                                   (op.turn * a.control->along - b.control->along).norm() <= same);
+  const bool alike =
+      both_free ||
+      (a.control && b.control && a.name == b.name && a.control->force == b.control->force &&
+       (op.turn * a.control->along - b.control->along).norm() <= same_place);
   if (!alike) return fmt::format("the force on the indenter \"{}\"", a.name);
   if (!same_motion(a.motion, b.motion, op))
     return fmt::format("the path of the indenter \"{}\"", a.name);

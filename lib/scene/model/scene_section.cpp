@@ -9,8 +9,6 @@ namespace langer {
 
 namespace {
 
-constexpr double same = same_place;
-
 bool has_symmetry_of(SectionOf of, const Indenter& shape) {
   if (of == SectionOf::axisymmetric) return is_revolved_about({}, shape);
   return unchanged_by(shape, {Vec3(1, 1, -1).asDiagonal()});
@@ -19,8 +17,8 @@ bool has_symmetry_of(SectionOf of, const Indenter& shape) {
 // a direction that the section's own symmetry leaves alone
 bool kept(const Fibre& fibre, const Vec3& a, SectionOf of) {
   if (!has_direction(fibre)) return true;
-  if (of == SectionOf::axisymmetric) return std::abs(a[1]) >= 1 - same;
-  return std::abs(a[2]) <= same || std::abs(a[2]) >= 1 - same;
+  if (of == SectionOf::axisymmetric) return std::abs(a[1]) >= 1 - same_place;
+  return std::abs(a[2]) <= same_place || std::abs(a[2]) >= 1 - same_place;
 }
 
 using Refuse = std::function<void(const std::string& key, const std::string& found,
