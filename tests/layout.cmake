@@ -6,7 +6,7 @@
 set(rooms
   core/base core/tensor core/config core/hdf5
   mechanics/mesh mechanics/contact mechanics/material mechanics/element mechanics/assembly
-  mechanics/linear mechanics/nonlinear mechanics/solve
+  mechanics/dynamics mechanics/linear mechanics/nonlinear mechanics/solve
   meshing
   results/store results/plot results/post
   scene/model scene/run

@@ -66,6 +66,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       config_(identity.config),
       observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
+      impact_(run.scene),
       collect_(by_refinement(config)
                    ? [this, config](const StepRecord& step) { forces_.push_back(step_forces(config, run_.scene, run_.mesh, step)); }
                    : std::function<void(const StepRecord&)>()),
@@ -76,6 +77,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
               watch.kept(step);
               run.replay(step);
               stress_.kept(step);
+              impact_.add(step);
               if (observer_.kept) observer_.kept(step);
               return true;
             }),
@@ -127,6 +129,7 @@ RunEnd Recording::along_the_path(Progress& progress) {
       stress_.add(record);
       file_.append(record);
     }
+    impact_.add(record);
     if (collect_) collect_(record);
     progress.accepted(record, report);
   };

@@ -20,6 +20,8 @@ struct LoadPathOptions {
   double time_error = 1e-3;
   std::optional<double> longest_attempt;  // [s], wall time
 
+  double fixed = 0;  // of t: all increments of a body in motion; 0: as the others say
+
   double first_increment() const {
     if (steps) return 1.0 / *steps;
     return first;

@@ -190,9 +190,9 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
       const std::vector<Vec3> c = indenters(t_, travel_);
       const std::vector<Vec3> c_start = indenters(now_.t, now_.travel);
       double force = 0;
-      if (controlled_ >= 0) force = controlled()->control->force.at(t_);
+      if (controlled_ >= 0) force = required_force();
       change = linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
-                                   controlled_, force, start_moves(), &bonds_},
+                                   controlled_, force, start_moves(), &bonds_, force_falls()},
                                   factor_, half.last);
     }
     if (!change) return std::nullopt;

@@ -41,6 +41,10 @@ void Statics::begin(double t) {
   u_start_.assign(contacts_.size(), now_.u);
   if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
+  if (options_.inertia) {
+    begin_motion((t - now_.t) * options_.seconds);
+    return;
+  }
   equilibrium_.load_to(t);
   equilibrium_.pressures_from(now_.u);
   const bool pushed = controlled_ >= 0 &&
@@ -129,6 +133,10 @@ void Statics::replay(const BodyState& next) {
 }
 
 void Statics::accept() {
+  if (options_.inertia) {
+    accept_motion();
+    return;
+  }
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_, travel_};

@@ -55,7 +55,9 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
   if (take_iterative(body, contacts, linear_by)) return;
-  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
+  // inertia resists every motion
+  const bool loose =
+      !body.added_term() && !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   std::size_t candidates = 0;
   for (const RigidContact& contact : contacts) candidates += contact.nodes.size();
   const bool wide = contact_by == ContactBy::tangent ||

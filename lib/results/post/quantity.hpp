@@ -26,6 +26,8 @@ struct StepState;
 struct SetState {
   Vec3 u = Vec3::Zero();         // mean [mm]
   Vec3 reaction = Vec3::Zero();  // sum [N]
+  Vec3 velocity = Vec3::Zero();      // mean [mm/s]
+  Vec3 acceleration = Vec3::Zero();  // mean [mm/s^2]
   double length = 1;             // reference length of a strain [mm]
   double swept = 0;              // volume swept by its facets [mm^3]
 };

@@ -20,6 +20,7 @@
 #include "mechanics/nonlinear/kinsol.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
+#include "scene/model/dynamics_config.hpp"
 #include "scene/model/fibre_field.hpp"
 #include "scene/model/load_config.hpp"
 #include "scene/model/mesh_config.hpp"
@@ -82,6 +83,7 @@ struct ContactConfig {
   double friction = 0;
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
+  std::optional<FreeConfig> free = {};
   std::optional<HistoryConfig> rotation = {};
   std::optional<Adhesion> adhesion = {};
   static void fields(auto& v) {
@@ -96,6 +98,8 @@ struct ContactConfig {
       "where the indenter goes, straight from point to point; with control only across its direction");
     v(&ContactConfig::control, "control", unit::none,
       "the indenter is pushed with a given force, and its travel is found");
+    v(&ContactConfig::free, "free", unit::none,
+      "with dynamics: the indenter has a mass and flies by itself along a direction");
     v(&ContactConfig::rotation, "rotation", unit::deg,
       "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
       "history, as a displacement");
@@ -110,7 +114,14 @@ struct ContactConfig {
     if (rotation && adhesion)
       found.push_back({"rotation", "found together with adhesion", "one of the two",
                        "bonds follow the place of an indenter, not its rotation"});
-    if (control && motion.empty()) return found;
+    if (free && control)
+      found.push_back({"free", "found together with control", "one of the two", ""});
+    if (free && adhesion)
+      found.push_back({"free", "found together with adhesion", "one of the two", ""});
+    if (free && !motion.empty())
+      found.push_back({"motion", "found together with free", "one of the two",
+                       "an indenter with mass goes where its inertia takes it"});
+    if (free || (control && motion.empty())) return found;
     for (Complaint& complaint :
          place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
       found.push_back(std::move(complaint));
@@ -262,6 +273,7 @@ struct SolveConfig {
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
   std::map<std::string, ContactConfig> contacts;
+  std::optional<DynamicsConfig> dynamics;
   LoadPathOptions path;
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::automatic;
@@ -307,6 +319,8 @@ struct SolveConfig {
     v(&SolveConfig::loads, "loads", unit::none,
       "imposed displacements, forces, tractions and pressures");
     v(&SolveConfig::contacts, "contacts", unit::none, "rigid indenters by name");
+    v(&SolveConfig::dynamics, "dynamics", unit::none,
+      "the body has inertia, and moves in time: path.seconds; none: equilibrium");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
     v(&SolveConfig::stability, "stability", unit::none,
@@ -349,7 +363,8 @@ struct SolveConfig {
     needs_stiffness(material, "material.matrix");
     for (const auto& [name, body] : materials)
       needs_stiffness(body.material, "materials." + name + ".material.matrix");
-    if (loads.empty() && contacts.empty())
+    complain_of_motion(found);
+    if (loads.empty() && contacts.empty() && !dynamics)
       found.push_back({"", "nothing moves", "loads or contacts", ""});
     if (mesh && !mesh->exports.empty())
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
@@ -418,6 +433,45 @@ struct SolveConfig {
   }
 
  private:
+  // Inertia together with what knows equilibria only.
+  void complain_of_motion(std::vector<Complaint>& found) const {
+    for (const auto& [name, contact] : contacts)
+      if (contact.free && !dynamics)
+        found.push_back({"contacts." + name + ".free", "found without dynamics",
+                         "dynamics: {density_kg_m3: 1100}",
+                         "an indenter with mass moves in time, with a body that has inertia"});
+    if (!dynamics) return;
+    const auto refuse = [&](const std::string& key, const std::string& expected) {
+      found.push_back({key, "found together with dynamics", expected, "it is for equilibria"});
+    };
+    if (!path.seconds)
+      found.push_back({"dynamics", "found on a path without seconds", "path: {seconds: ...}", ""});
+    if (accuracy) refuse("accuracy", "none");
+    if (fidelity) refuse("fidelity", "none");
+    if (estimate && *estimate != EstimateBy::none) refuse("estimate", "none");
+    if (!sensitivity.empty()) refuse("sensitivity", "none");
+    if (uncertainty == UncertaintyBy::linear) refuse("uncertainty", "none");
+    if (reduce == Reduce::automatic) refuse("reduce", "none");
+    if (stability == StabilityCheck::each_step || stability == StabilityCheck::last)
+      refuse("stability", "off");
+    if (on_unstable == OnUnstable::stop) refuse("on_unstable", "warn");
+    if (std::holds_alternative<KinsolOptions>(solver)) refuse("solver.kinsol", "newton");
+    if (const auto* newton = std::get_if<NewtonOptions>(&solver);
+        newton && newton->linear == LinearBy::iterative)
+      refuse("solver.newton.linear", "direct");
+    for (const auto& [name, contact] : contacts)
+      if (contact.adhesion) refuse("contacts." + name + ".adhesion", "none");
+    if (dynamics->scheme != Scheme::energy_momentum) return;
+    const auto unlike = [&](const std::string& key, const std::string& hint) {
+      found.push_back({key, "found with scheme: energy_momentum", "another scheme", hint});
+    };
+    for (const auto& [name, contact] : contacts)
+      unlike("contacts." + name, "its balance is that of the middle of a step, and contact at its end");
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (!loads[i].on_surface())
+        unlike("loads[" + std::to_string(i) + "]", "sets that are moved do work between the ends of a step");
+    if (material && is_viscous(*material)) unlike("material", "viscous branches know the end of a step");
+  }
   // The key that requests an accuracy; empty if none does.
   std::string key_of_accuracy() const {
     if (accuracy) return "accuracy";

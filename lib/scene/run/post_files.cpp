@@ -1,3 +1,4 @@
+#include "scene/model/scene_motion.hpp"
 #include "scene/run/post_files.hpp"
 
 #include <algorithm>
@@ -90,6 +91,10 @@ StepState state_of(const StepRecord& record) {
       state.slip += status == 2;
     }
   state.histories = record.scalars;
+  if (const auto v = record.point_fields.find(velocity_field); v != record.point_fields.end()) {
+    state.velocity = v->second;
+    state.acceleration = record.point_fields.at(acceleration_field);
+  }
   return state;
 }
 

@@ -22,7 +22,7 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
                           const std::function<Place(const std::string&)>& where, bool at_a_point) {
   const SceneParameters parameters(config, mesh, scene, where);
   // A change of fibre angles would shear a body that is only stretched: no single hexahedron then.
-  if (at_a_point && !parameters.turns_fibres())
+  if (at_a_point && !scene.motion && !parameters.turns_fibres())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
   if (config.sensitivity.empty())

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -52,6 +53,7 @@ class Run {
   const Reduction reduction;
   std::string serial_reason;  // where it is not divided among ranks that are there
   Assembler body;             // balance of the part
+  std::unique_ptr<Inertia> inertia;  // of a body in motion, else none
   Statics statics;
   LoadPathOptions path;
   Solver solver;

@@ -7,6 +7,8 @@
 #include "mechanics/material/at_rest.hpp"
 #include "results/store/material_file.hpp"
 #include "scene/model/bond_records.hpp"
+#include "scene/model/scene_motion.hpp"
+#include "scene/run/motion_record.hpp"
 #include "scene/model/solve_config_io.hpp"
 
 namespace langer {
@@ -124,6 +126,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   record.scalars["J_min"] = body.J_min();
   record.scalars["energy"] = body.W();
   if (body.viscous()) record.scalars["viscous_work"] = body.viscous_work();
+  if (statics.inertia()) record_motion(statics, body, record);
   const auto& contacts = statics.contacts();
   if (contacts.empty()) return record;
   const auto defects = statics.defects();
@@ -161,6 +164,14 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
     if (contact.control) state.travel = record.scalars.at("travel_" + contact.name);
   }
   take_bonds(record, scene.contacts, state);
+  if (!scene.motion) return state;
+  const auto kept = [](const std::vector<Vec3>& nodal, bool) {
+    VecX all(3 * static_cast<Eigen::Index>(nodal.size()));
+    for (std::size_t i = 0; i < nodal.size(); ++i)
+      all.segment<3>(3 * static_cast<Eigen::Index>(i)) = nodal[i];
+    return all;
+  };
+  state.motion = recorded_motion(record, kept);
   return state;
 }
 
