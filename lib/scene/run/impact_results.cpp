@@ -39,7 +39,7 @@ std::vector<Summary> ImpactResults::summary() const {
     peak = std::max(peak, states_[i].force);
   }
   if (first == 0) return {};
-  std::vector<Summary> out{{"peak_force_N", peak, "N"}};
+  std::vector<Summary> out{{"peak_force", peak, "N"}};
   if (last + 1 >= states_.size()) return out;
   // The time at which the line through two forces reaches 0, within [low, high].
   const auto zero_of = [](const State& near, const State& next, double low, double high) {
@@ -54,7 +54,7 @@ std::vector<Summary> ImpactResults::summary() const {
         zero_of(states_[first], states_[first + 1], states_[first - 1].time, states_[first].time);
     end = zero_of(states_[last], states_[last - 1], states_[last].time, states_[last + 1].time);
   }
-  out.push_back({"contact_time_s", end - begin, "s"});
+  out.push_back({"contact_time", end - begin, "s"});
   out.push_back({"restitution", restitution(first, last), "-"});
   return out;
 }
