@@ -44,6 +44,11 @@ struct Solution {
     undeformed.u.assign(body.mesh().X.size(), Vec3::Zero());
     undeformed.reaction = undeformed.u;
     undeformed.scalars["shear_stiffness_min"] = stiffness_at_rest();
+    if (reader.n_steps() > 0) {
+      const StepRecord first = reader.step(0);
+      const auto moving = first.scalars.find("kinetic_energy_at_start");
+      if (moving != first.scalars.end()) undeformed.scalars["kinetic_energy"] = moving->second;
+    }
     return undeformed;
   }
 

@@ -51,6 +51,12 @@ Case read_case(const Job<SolveConfig>& job) {
     job.voice().warn(line);
   }
   input.parameters = prepare_uncertainty(input.job.config, material_file, job.where);
+  if (input.job.config.in_motion()) {
+    // What judges equilibria has nothing to say of a motion.
+    input.job.config.estimate = EstimateBy::none;
+    input.job.config.stability = StabilityCheck::off;
+    input.job.config.homogeneous = Homogeneous::off;
+  }
   if (job.has("material")) input.study = study_from(material_file);
   return input;
 }
@@ -70,7 +76,7 @@ void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
 std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
   const Job<SolveConfig>& job = input.job;
   if (!job.has("mirror") || job.dry_run || !job.config.sensitivity.empty()) return std::nullopt;
-  if (job.config.modes || job.config.harmonic) return std::nullopt;
+  if (job.config.dynamics || job.config.modes || job.config.harmonic) return std::nullopt;
   SolveConfig config = job.config;
   if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
   const MirrorTask task{config,          input.material,      job.where, job.identity,
@@ -193,9 +199,10 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
 
   const auto forces = observers.uncertainty->of(end.last);
   report_forces(job.voice(), input.parameters, forces, errors.at_end);
-  const Summaries results = joined({observers.sensitivity->summary(end.last), summary_of(forces),
-                                    summary_of(errors.at_end), model.summary(errors.at_end),
-                                    watch.contact_summary(), of_vibration});
+  const Summaries results =
+      joined({observers.sensitivity->summary(end.last), summary_of(forces),
+              summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary(),
+              of_vibration, recording.impact_summary()});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
 

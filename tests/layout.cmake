@@ -6,7 +6,7 @@
 set(rooms
   core/base core/tensor core/config core/hdf5
   mechanics/mesh mechanics/contact mechanics/mortar mechanics/material mechanics/element mechanics/assembly
-  mechanics/linear mechanics/nonlinear mechanics/solve mechanics/vibration
+  mechanics/dynamics mechanics/linear mechanics/nonlinear mechanics/solve mechanics/vibration
   meshing
   results/store results/plot results/post
   layers

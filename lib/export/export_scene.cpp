@@ -39,6 +39,7 @@ Spot spot(const Vec3& X) { return {X[0], X[1], X[2]}; }
 
 // Refuses loads that decks cannot express.
 void check_loads(const SolveConfig& config, const std::string& path) {
+  if (config.in_motion()) refuse(path, "dynamics", "a body in motion", "an equilibrium");
   for (std::size_t i = 0; i < config.loads.size(); ++i)
     if (config.loads[i].on_surface())
       refuse(path, fmt::format("loads[{}]", i), "a force, a traction or a pressure",

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -167,4 +168,42 @@ TEST_CASE("the mass in the tangent's pattern is that of the free rows, past hang
   }
   CHECK(largest == 0);
   CHECK(*std::max_element(values.begin(), values.end()) > 0);
+}
+
+TEST_CASE("mass-free nodes leave the mass, its centre and its moments as they were") {
+  for (CellType type : {CellType::hex8, CellType::hex27, CellType::tet15}) {
+    Mesh mesh = test::block(test::even(0, 2, 3), test::even(0, 3, 4), test::even(0, 1.5, 3));
+    if (type != CellType::hex8) mesh = test::raised_block(mesh, type);
+    const Dofs dofs = number_dofs(mesh.n_nodes(), {}).dofs;
+    const Assembler body = body_of(mesh, dofs);
+    std::vector<char> massless(static_cast<std::size_t>(mesh.n_nodes()), 0);
+    for (int node : mesh.node_sets.at("y_max")) massless[node] = 1;
+    const Mass all = make_mass(body.model(), {rho}, MassKind::consistent);
+    const Mass some = make_mass(body.model(), {rho}, MassKind::consistent, massless);
+    for (int node : mesh.node_sets.at("y_max")) {
+      CHECK(some.M.col(3 * node + 1).norm() == 0);
+    }
+    CHECK(some.total == near(all.total, 1e-12));
+    for (int k = 0; k < 4; ++k) {
+      const auto field = [k](const Vec3& X) {
+        const Vec3 spin(0.3, 1, -0.4);
+        if (k == 0) return Vec3(spin.cross(X));
+        return Vec3(X[k - 1] * spin + Vec3(0, 2, 0));
+      };
+      CHECK(twice_kinetic_energy(mesh, dofs, some, field) ==
+            near(twice_kinetic_energy(mesh, dofs, all, field), 1e-12));
+    }
+    // nothing moves without a kinetic energy but the nodes without mass
+    std::vector<int> kept;
+    for (int i = 0; i < mesh.n_nodes(); ++i) {
+      if (!massless[i]) kept.push_back(i);
+    }
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    MatX m(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < n; ++j) m(i, j) = some.M.coeff(3 * kept[i], 3 * kept[j]);
+    }
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(m);
+    CHECK(eigen.eigenvalues().minCoeff() > 1e-4 * m.trace() / static_cast<double>(n));
+  }
 }

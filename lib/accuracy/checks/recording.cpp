@@ -78,6 +78,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       config_(identity.config),
       observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
+      impact_(run.scene),
       collect_(collector(config)),
       file_(
           output,
@@ -101,6 +102,7 @@ SolutionWriter::StillGood Recording::with_replay(SolutionWriter::StillGood good)
     watch_.kept(step);
     run_.replay(step);
     stress_.kept(step);
+    impact_.add(step);
     if (observer_.kept) observer_.kept(step);
     return true;
   };
@@ -153,6 +155,7 @@ RunEnd Recording::along_the_path(Progress& progress) {
       stress_.add(record);
       file_.append(record);
     }
+    impact_.add(record);
     if (collect_) collect_(record);
     progress.accepted(record, report);
   };

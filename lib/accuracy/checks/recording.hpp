@@ -9,6 +9,7 @@
 #include "accuracy/checks/progress.hpp"
 #include "accuracy/checks/run_watch.hpp"
 #include "scene/run/cell_stress.hpp"
+#include "scene/run/impact_results.hpp"
 #include "scene/run/step_forces.hpp"
 
 namespace langer {
@@ -41,6 +42,9 @@ class Recording {
   // refinement
   const std::vector<StepForces>& forces() const { return forces_; }
 
+  // Contact time, greatest force and restitution of a body in motion.
+  std::vector<Summary> impact_summary() const { return impact_.summary(); }
+
   [[noreturn]] void stopped_in_estimate() const;
 
   void write_vibration(const VibrationRecord& record) { file_.write_vibration(record); }
@@ -68,6 +72,7 @@ class Recording {
   std::string output_, config_;
   Observer observer_;
   CellStressRecorder stress_;
+  ImpactResults impact_;
   std::function<void(const StepRecord&)> collect_;
   std::vector<StepForces> forces_;
   SolutionWriter file_;

@@ -89,6 +89,11 @@ bool Assembler::assemble(const VecX& u, bool with_tangent, const VecX* du_prescr
   if (body_.division()) sum_over_ranks(with_tangent);
   floor_ = std::sqrt(floor_);
   if (!loads_.empty() && J_min_ > 0) add_loads(u, with_tangent, du_prescribed);
+  if (added_ && J_min_ > 0) {
+    f_ += added_->force(u);
+    if (with_tangent) tangent_.add(added_->tangent());
+    if (with_tangent && du_prescribed) K_du_ += added_->tangent_times(*du_prescribed);
+  }
 
   const bool valid = J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
   if (valid) {
@@ -282,6 +287,13 @@ void Assembler::extrapolate_pressures(const VecX& u_before, double s) {
   const std::vector<double> now = pressures_.state().p;
   pressures_from(u_before);
   pressures_.extrapolate(now, s);
+}
+
+double Assembler::energy_at(const VecX& u) {
+  AddedTerm* const added = std::exchange(added_, nullptr);
+  const double W = forces_of(body_.materials(), body_.directions(), u).W;
+  added_ = added;
+  return W;
 }
 
 void Assembler::set_materials(std::vector<Material> materials, Directions directions) {

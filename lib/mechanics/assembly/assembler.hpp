@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "mechanics/assembly/added_term.hpp"
 #include "mechanics/assembly/body_model.hpp"
 #include "mechanics/assembly/element_packets.hpp"
 #include "mechanics/assembly/loads.hpp"
@@ -54,6 +55,14 @@ class Assembler {
   VecX unit_pressure(int volume, const VecX& u) const;                 // (3 n) [N/MPa]
   double swept_volume(int volume, const VecX& u) const;                // [mm^3]
   VecX load_forces(double t, const VecX& u) const;                     // (3 n) [N]
+
+  // A further force with its tangent, from now on in f_int() and K(); nullptr: none. Refers to it.
+  void set_added_term(AddedTerm* term) { added_ = term; }
+  const AddedTerm* added_term() const { return added_; }
+  // For forces that no element and no added term knows; until the next assembly.
+  void add_to_forces(const VecX& f) { f_ += f; }
+  // The energy of the body at u, with the pressures that belong to it; nothing else changes.
+  double energy_at(const VecX& u);
 
   // Forces and, if requested, the tangent at u. False if an element is turned inside out, or a
   // force is not finite. du_prescribed: the displacement of prescribed unknowns that is still to be
@@ -162,6 +171,7 @@ class Assembler {
   ViscousState viscous_;
   SparseTangent tangent_;
   Loads loads_;
+  AddedTerm* added_ = nullptr;
   double t_loads_ = 0;
   int threads_;
   VecX f_, K_du_, f_ext_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "mechanics/mesh/reference.hpp"
 
@@ -100,58 +101,176 @@ Mat3 movement(const BodyModel& body, int node) {
   return T;
 }
 
-}  // namespace
+using NodeMass = Eigen::SparseMatrix<double>;  // (nodes, nodes) [t]
 
-MatX cell_mass(const ReferenceCell& cell, const ElementNodes& X) { return MassShapes(cell).of(X); }
-
-Mass make_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind) {
-  const Mesh& mesh = body.mesh();
-  if (kind == MassKind::lumped && mesh.cell().second_order()) {
-    throw std::invalid_argument("a lumped mass is for cells of first order");
+// Adds triplets in portions: those of all cells of second order would fill the memory.
+class PortionedSum {
+ public:
+  explicit PortionedSum(int n) : sum_(n, n) {}
+  void add(int row, int column, double value) {
+    entries_.emplace_back(row, column, value);
+    if (entries_.size() > portion) add_portion();
   }
-  const int n = body.dofs().n;
-  Mass mass;
-  mass.M.resize(n, n);
-  // Triplets are summed in portions: those of all cells of second order would fill the memory.
-  constexpr std::size_t portion = 4000000;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add_entries = [&] {
-    Eigen::SparseMatrix<double> part(n, n);
-    part.setFromTriplets(entries.begin(), entries.end());
-    mass.M += part;
-    entries.clear();
-  };
-  const auto add = [&](int a, int b, double m) {
-    const Mat3 block = m * movement(body, a).transpose() * movement(body, b);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        if (block(i, j) == 0) continue;
-        entries.emplace_back(3 * body.dofs().node(a) + i, 3 * body.dofs().node(b) + j, block(i, j));
-      }
+  NodeMass finish() {
+    add_portion();
+    sum_.makeCompressed();
+    return std::move(sum_);
+  }
+
+ private:
+  static constexpr std::size_t portion = 4000000;
+  void add_portion() {
+    NodeMass part(sum_.rows(), sum_.cols());
+    part.setFromTriplets(entries_.begin(), entries_.end());
+    sum_ += part;
+    entries_.clear();
+  }
+  NodeMass sum_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+// The mass of a cell on the nodes that keep theirs; all of it vanishes where none does.
+MatX without_nodes(MatX m, const std::vector<char>& gone) {
+  const double before = m.sum();
+  bool all_kept = true;
+  for (Eigen::Index a = 0; a < m.rows(); ++a) {
+    if (!gone[static_cast<std::size_t>(a)]) continue;
+    all_kept = false;
+    m.row(a).setZero();
+    m.col(a).setZero();
+  }
+  if (all_kept) return m;
+  const double left = m.sum();
+  if (left > 0) m *= before / left;
+  return m;
+}
+
+// phi = (1, x, y, z) at each node, in a box of size 1 about the middle; of a section (1, x, y).
+MatX moment_functions(const Mesh& mesh) {
+  Vec3 low = mesh.X.front();
+  Vec3 high = mesh.X.front();
+  for (const Vec3& X : mesh.X) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+  }
+  const double size = (high - low).maxCoeff();
+  const int n = mesh.section ? 3 : 4;
+  MatX phi(mesh.n_nodes(), n);
+  for (int a = 0; a < mesh.n_nodes(); ++a) {
+    const Vec3 x = (mesh.X[a] - 0.5 * (low + high)) / size;
+    phi(a, 0) = 1;
+    for (int k = 1; k < n; ++k) phi(a, k) = x[k - 1];
+  }
+  return phi;
+}
+
+// sum_ab m_ab phi_a phi_b'
+MatX moments(const NodeMass& m, const MatX& phi) { return phi.transpose() * (m * phi); }
+
+// Changes the entries of m by small shares, so that it has the given moments.
+void restore_moments(NodeMass& m, const MatX& phi, const MatX& wanted) {
+  const auto n = phi.cols();
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index l = k; l < n; ++l) pairs.emplace_back(k, l);
+  }
+  const auto n_pairs = static_cast<Eigen::Index>(pairs.size());
+  MatX A = MatX::Zero(n_pairs, n_pairs);
+  VecX c(n_pairs);
+  const auto of_entry = [&](Eigen::Index a, Eigen::Index b) {
+    for (Eigen::Index p = 0; p < n_pairs; ++p) {
+      const auto [k, l] = pairs[static_cast<std::size_t>(p)];
+      c[p] = 0.5 * (phi(a, k) * phi(b, l) + phi(a, l) * phi(b, k));
     }
   };
+  for (int column = 0; column < m.outerSize(); ++column) {
+    for (NodeMass::InnerIterator entry(m, column); entry; ++entry) {
+      of_entry(entry.row(), entry.col());
+      A += entry.value() * c * c.transpose();
+    }
+  }
+  const MatX missing = wanted - moments(m, phi);
+  VecX rhs(n_pairs);
+  for (Eigen::Index p = 0; p < n_pairs; ++p) {
+    const auto [k, l] = pairs[static_cast<std::size_t>(p)];
+    rhs[p] = missing(k, l);
+  }
+  const VecX change = A.completeOrthogonalDecomposition().solve(rhs);
+  for (int column = 0; column < m.outerSize(); ++column) {
+    for (NodeMass::InnerIterator entry(m, column); entry; ++entry) {
+      of_entry(entry.row(), entry.col());
+      entry.valueRef() *= 1 + change.dot(c);
+    }
+  }
+}
 
+// Mass by nodes of the mesh, before they are tied: rows of hanging nodes are empty.
+NodeMass node_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind,
+                   const std::vector<char>& massless) {
+  const Mesh& mesh = body.mesh();
   const MassShapes shapes(mesh.cell());
+  PortionedSum sum(mesh.n_nodes());
+  PortionedSum all(mesh.n_nodes());
   for (int e = 0; e < mesh.n_cells(); ++e) {
     const ElementNodes X = element_nodes(mesh, e);
     double share = density.at(mesh.body.empty() ? 0 : static_cast<std::size_t>(mesh.body[e]));
     // how many cells of the whole body this one stands for
     if (body.geometry(e).V > 0) share *= body.geometry(e).V / element_geometry(X).V;
     MatX m = share * shapes.of(X);
-    mass.total += m.sum();
     if (const MatX* C = body.moving_nodes().weights(e)) m = C->transpose() * m * *C;
+    if (kind == MassKind::lumped) m = MatX(m.rowwise().sum().asDiagonal());
     const auto nodes = body.nodes(e);
-    for (int a = 0; a < body.n_nodes(); ++a) {
-      if (kind == MassKind::lumped) {
-        add(nodes[a], nodes[a], m.row(a).sum());
-        continue;
+    const auto add_to = [&](PortionedSum& to) {
+      for (int a = 0; a < body.n_nodes(); ++a) {
+        for (int b = 0; b < body.n_nodes(); ++b) {
+          if (m(a, b) != 0) to.add(nodes[a], nodes[b], m(a, b));
+        }
       }
-      for (int b = 0; b < body.n_nodes(); ++b) add(nodes[a], nodes[b], m(a, b));
+    };
+    if (!massless.empty()) {
+      add_to(all);
+      std::vector<char> gone;
+      for (int node : nodes) gone.push_back(massless[body.dofs().node(node)]);
+      m = without_nodes(std::move(m), gone);
     }
-    if (entries.size() > portion) add_entries();
+    add_to(sum);
   }
-  add_entries();
-  mass.M.makeCompressed();
+  NodeMass m = sum.finish();
+  if (massless.empty()) return m;
+  m.prune(0.0);
+  if (m.nonZeros() == 0) throw std::invalid_argument("no node keeps its mass");
+  const MatX phi = moment_functions(mesh);
+  restore_moments(m, phi, moments(all.finish(), phi));
+  return m;
+}
+
+}  // namespace
+
+MatX cell_mass(const ReferenceCell& cell, const ElementNodes& X) { return MassShapes(cell).of(X); }
+
+Mass make_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind,
+               const std::vector<char>& massless) {
+  if (kind == MassKind::lumped && body.mesh().cell().second_order()) {
+    throw std::invalid_argument("a lumped mass is for cells of first order");
+  }
+  const NodeMass of_nodes = node_mass(body, density, kind, massless);
+  Mass mass;
+  PortionedSum sum(body.dofs().n);
+  for (int b = 0; b < of_nodes.outerSize(); ++b) {
+    const Mat3 T_b = movement(body, b);
+    for (NodeMass::InnerIterator entry(of_nodes, b); entry; ++entry) {
+      const int a = static_cast<int>(entry.row());
+      mass.total += entry.value();
+      const Mat3 block = entry.value() * movement(body, a).transpose() * T_b;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          if (block(i, j) == 0) continue;
+          sum.add(3 * body.dofs().node(a) + i, 3 * body.dofs().node(b) + j, block(i, j));
+        }
+      }
+    }
+  }
+  mass.M = sum.finish();
   return mass;
 }
 

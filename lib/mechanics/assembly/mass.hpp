@@ -41,7 +41,14 @@ struct Mass {
 // density: by index in Mesh::bodies [t/mm3]. All cells of the mesh count, on whichever rank.
 // Throws std::invalid_argument for a lumped mass of cells of second order: sums of rows would be
 // negative at their corners.
-Mass make_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind);
+//
+// massless: by node of the mesh; empty: none. The rows of these nodes vanish, and so do those of
+// nodes that move with them. What they had goes to the other nodes of their cells, and a small
+// change of all entries, m_ab (1 + phi_a' L phi_b) with phi = (1, x, y, z), restores the mass, its
+// centre and its moments of inertia. [Khenous, Laborde, Renard 2008; by cells as Hager, Wohlmuth
+// 2009]. Throws std::invalid_argument if no node is left.
+Mass make_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind,
+               const std::vector<char>& massless = {});
 
 // Mass of one cell by its nodes (nodes, nodes) [t], with density 1 [t/mm3].
 MatX cell_mass(const ReferenceCell& cell, const ElementNodes& X);

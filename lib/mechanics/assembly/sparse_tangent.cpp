@@ -174,6 +174,10 @@ int SparseTangent::position(int e, int row, int column) const {
   return Pattern::turned(at[i]) + j;
 }
 
+void SparseTangent::add(const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values_[i] += values[i];
+}
+
 VecX SparseTangent::times(const VecX& v) const {
   VecX out = VecX::Zero(v.size());
   for (int column = 0; column < pattern_.n; ++column) {

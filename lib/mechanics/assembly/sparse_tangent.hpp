@@ -29,6 +29,9 @@ class SparseTangent {
   // Adds a 3 x 3 block of element e, of its nodes a >= b, to what is already there.
   void add_block(int e, int a, int b, const Mat3& K);
 
+  // Adds values in its pattern, (nnz).
+  void add(const std::vector<double>& values);
+
   VecX times(const VecX& v) const;  // K v of the free rows
 
  private:

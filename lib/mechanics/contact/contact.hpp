@@ -31,6 +31,10 @@ using Waypoint = HistoryPoint<Vec3>;  // displacement of the indenter [mm]
 struct ForceControl {
   Vec3 along = -Vec3::UnitY();  // of length 1
   History force;                // [N] on the body, not negative
+  // With a mass its force follows from its own motion (dynamics/inertia.hpp); `force` is 0.
+  double mass = 0;      // [t]
+  double velocity = 0;  // along its direction at the beginning [mm/s]
+  bool free() const { return mass > 0; }
 };
 
 struct Rotation {

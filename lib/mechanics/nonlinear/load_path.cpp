@@ -39,6 +39,7 @@ Stage stage_at(const LoadPathOptions& options, double t, const std::vector<doubl
   }
   stage.largest = options.largest_increment();
   if (options.seconds) stage.largest *= stage.end - stage.begin;
+  if (options.fixed > 0) stage.largest = options.fixed;
   return stage;
 }
 
@@ -78,6 +79,7 @@ PathReport load_path(
   bool shortened = false;  // because of its error: then not to be stretched again
   while (t < 1 - tiny) {
     const Stage stage = stage_at(options, t, stops);
+    if (dt == 0 && options.fixed > 0) dt = options.fixed;
     if (dt == 0) dt = (options.seconds ? stage.end - stage.begin : 1) * options.first_increment();
     if (options.seconds) {
       // equal increments begin anew in each stage; a halved one stays as it is

@@ -34,6 +34,8 @@ struct LoadPathOptions {
   std::optional<double> longest_attempt;  // [s], wall time
   std::optional<ArcLengthOptions> arc_length;
 
+  double fixed = 0;  // of t: all increments of a body in motion; 0: as the others say
+
   double first_increment() const {
     if (steps) return 1.0 / *steps;
     return first;

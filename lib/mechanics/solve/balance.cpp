@@ -3,6 +3,7 @@
 // correction moves it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/stopwatch.hpp"
@@ -48,6 +49,7 @@ double Statics::force_scale() const {
     for (const Vec3& r_i : r) sum += r_i.squaredNorm();
   if (!equilibrium_.loads().empty()) sum += equilibrium_.f_ext().squaredNorm();
   if (!bonds_.none()) sum += bonds_.squared_norm();
+  if (options_.inertia) sum += std::pow(options_.inertia->force_scale(), 2);
   return std::sqrt(sum);
 }
 
@@ -75,13 +77,16 @@ bool Statics::contact_law_holds(const VecX& u) const {
 bool Statics::force_is_given() const {
   const ForceControl& control = *controlled()->control;
   Vec3 sum = Vec3::Zero();
-  double size = control.force.at(t_);
-  const double given = size;
+  const double given = required_force();
+  double size = std::abs(given);
   for (const Vec3& r : r_[static_cast<std::size_t>(controlled_)]) {
     sum += r;
     size = std::max(size, r.norm());
   }
-  return std::abs(sum.dot(control.along) - given) <= options_.law_tolerance * size;
+  // Rounding of the travel of an indenter with mass.
+  const double rounding = 32 * std::numeric_limits<double>::epsilon() * force_falls() *
+                          (std::abs(travel_) + std::abs(now_.travel));
+  return std::abs(sum.dot(control.along) - given) <= options_.law_tolerance * size + rounding;
 }
 
 // Residual (and tangent) at u, and the first condition of equilibrium that does not hold.
@@ -93,6 +98,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   if (std::exchange(unsettled_, false)) equilibrium_.pressures_from(u);
   out.admissible = equilibrium_.assemble(u, with_tangent, &direction);
   K_current_ = with_tangent;
+  if (out.admissible && options_.inertia && options_.inertia->conserves()) balance_middle(u);
   if (!out.admissible) {
     if (equilibrium_.J_min() > 0) {
       out.missing =

@@ -293,6 +293,55 @@ Pushed pushed_by(const Law& law, const Condensed& c, double force) {
   return best;
 }
 
+// The travel at which the contact bears what the inertia of the indenter gives: force - falls *
+// travel. The difference of the two grows with the travel, so there is one root, in contact or not.
+Pushed carried_by_inertia(const Law& law, const Condensed& c, double force, double falls) {
+  constexpr double exact = 1e-13, infinite = std::numeric_limits<double>::infinity();
+  Pushed best{{{}, c.present}, 0};
+  double least = infinite;
+  double low = -infinite;
+  double high = infinite;
+  double next = 0;
+  double last_travel = 0;
+  double last_excess = 0;
+  int sweeps = 0;
+  bool has_last = false;
+  for (int i = 0; i < 200; ++i) {
+    Answer answer = law.at(next, best.answer.r);
+    sweeps += answer.sweeps;
+    if (!answer.solved) {
+      if (next == 0) break;
+      (next > 0 ? high : low) = next;
+      next *= 0.5;
+      continue;
+    }
+    const double borne = law.force(answer);
+    const double excess = borne - force + falls * next;
+    const double scale = std::abs(borne) + std::abs(force) + falls * std::abs(next);
+    if (std::abs(excess) < least) {
+      least = std::abs(excess);
+      best = {std::move(answer), next};
+    }
+    if (std::abs(excess) <= exact * scale) break;
+    (excess < 0 ? low : high) = next;
+    // Without a second point the slope is that of the inertia alone: contact only adds to it.
+    double slope = falls;
+    if (has_last && next != last_travel) {
+      slope = std::max(falls, (excess - last_excess) / (next - last_travel));
+    }
+    last_travel = next;
+    last_excess = excess;
+    has_last = true;
+    next -= excess / slope;
+    const bool bracketed = std::isfinite(low) && std::isfinite(high);
+    if (bracketed && (!(next > low && next < high) || i % 6 == 5)) next = 0.5 * (low + high);
+    if (bracketed && high - low <= 1e-16 * (1 + std::abs(low))) break;
+  }
+  best.answer.sweeps = sweeps;
+  best.answer.solved = std::isfinite(least);
+  return best;
+}
+
 }  // namespace
 
 std::optional<ContactChange> linearised_contact(const ContactState& state,
@@ -307,11 +356,22 @@ std::optional<ContactChange> linearised_contact(const ContactState& state,
     }
     const std::vector<Near>& near = found_near.of;
     if (near.empty() && state.controlled < 0) return change;
+    if (near.empty() && state.force_falls > 0) {
+      change.travel = state.force / state.force_falls;
+      if (std::abs(change.travel) > travel) continue;
+      return change;
+    }
     if (near.empty()) return std::nullopt;
     const Condensed c = condensed(state, factor, near);
     const Law law(c);
-    const Pushed found =
-        state.controlled < 0 ? Pushed{law.at(0, c.present), 0} : pushed_by(law, c, state.force);
+    Pushed found;
+    if (state.controlled < 0) {
+      found = {law.at(0, c.present), 0};
+    } else if (state.force_falls > 0) {
+      found = carried_by_inertia(law, c, state.force, state.force_falls);
+    } else {
+      found = pushed_by(law, c, state.force);
+    }
     const Answer& answer = found.answer;
     if (!answer.s.allFinite() || !answer.r.allFinite()) return std::nullopt;
     if (state.controlled >= 0 && !answer.solved) return std::nullopt;

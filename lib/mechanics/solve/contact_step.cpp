@@ -218,9 +218,9 @@ std::optional<ContactChange> Statics::change_of_contact(const VecX& rhs, LinearS
     return linearised_bodies(state, bodies_, now_.u, remaining_prescribed(u_), factor_, half.last);
   }
   double force = 0;
-  if (controlled_ >= 0) force = controlled()->control->force.at(t_);
+  if (controlled_ >= 0) force = required_force();
   return linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
-                             controlled_, force, start_moves(), &bonds_},
+                             controlled_, force, start_moves(), &bonds_, force_falls()},
                             factor_, move_of_node);
 }
 

@@ -43,6 +43,10 @@ void Statics::begin(double t) {
   u_start_.assign(contacts_.size(), now_.u);
   if (!bonds_.none()) begin_bonds();
   equilibrium_.begin_increment((t - now_.t) * options_.seconds);
+  if (options_.inertia) {
+    begin_motion((t - now_.t) * options_.seconds);
+    return;
+  }
   equilibrium_.load_to(t);
   take_border_of(now_);
   equilibrium_.pressures_from(now_.u);
@@ -143,6 +147,10 @@ void Statics::replay(const BodyState& next) {
 }
 
 void Statics::accept() {
+  if (options_.inertia) {
+    accept_motion();
+    return;
+  }
   equilibrium_.accept_increment(now_.u, u_);
   before_ = std::move(now_);
   now_ = {t_, u_, r_, travel_};

@@ -47,6 +47,7 @@ Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
   u_ = now_.u;
   r_ = r_next_ = now_.r;
   u_start_.assign(contacts_.size(), now_.u);
+  if (options_.inertia) now_.motion = before_.motion = options_.inertia->at_start();
 }
 
 Statics::Cost Statics::cost() const {
@@ -130,6 +131,11 @@ std::vector<double> Statics::surface_penetrations() const {
 }
 
 VecX Statics::reactions() const {
+  if (options_.inertia) return now_.motion.reactions;
+  return trial_reactions();
+}
+
+VecX Statics::trial_reactions() const {
   VecX out = VecX::Zero(equilibrium_.dofs().n);
   for (const Prescribed& p : equilibrium_.dofs().prescribed)
     out[p.dof] = equilibrium_.f_int()[p.dof];

@@ -15,6 +15,7 @@
 //   statics_stability.cpp  signs of the eigenvalues of the constrained tangent
 //   statics_bonds.cpp adhesion
 //   statics_border.cpp  unknowns beside the displacements: t of an arc, pressures of given volumes
+//   statics_motion.cpp  inertia: the body moves, and each increment ends in a balance with M a
 #pragma once
 
 #include <memory>
@@ -23,6 +24,7 @@
 #include "mechanics/assembly/assembler.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/contact/touch.hpp"
+#include "mechanics/dynamics/inertia.hpp"
 #include "mechanics/nonlinear/free_balance.hpp"
 #include "mechanics/nonlinear/newton.hpp"
 #include "mechanics/solve/body_scale.hpp"
@@ -41,7 +43,8 @@ struct BodyState {
   double travel = 0;      // of the indenter under force control [mm]
   BondStates bonds = {};  // empty where nothing adheres
   BondEnergy in_bonds = {};
-  VecX pressures = {};  // of loads with a given volume [MPa]
+  VecX pressures = {};      // of loads with a given volume [MPa]
+  MotionState motion = {};  // empty without inertia
 };
 
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions
@@ -64,6 +67,7 @@ struct StaticsOptions {
   double seconds = 0;             // of the path, for viscous bodies
   ContactBy contact_by = ContactBy::by_cost;
   LinearBy linear_by = LinearBy::direct;
+  Inertia* inertia = nullptr;  // of the body, whose added term it is; none: equilibrium
 };
 
 class Statics {
@@ -160,6 +164,8 @@ class Statics {
     if (factor_.mixed()) return &factor_.mixed()->solver();
     return nullptr;
   }
+  double motion_error() const;  // of the trial of a body in motion (Inertia::error())
+  const Inertia* inertia() const { return options_.inertia; }
   bool gave_up_iterating() const { return factor_.gave_up_iterating(); }
 
  private:
@@ -209,6 +215,14 @@ class Statics {
   double turning(const RigidContact& contact, double t0,
                  const Vec3& c0) const;                        // the same of what turns with it
   std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
+  void begin_motion(double seconds);
+  void accept_motion();
+  void balance_middle(const VecX& u);  // energy_momentum: the force that keeps the energy
+  double work_from_outside(const VecX& du, const VecX& f_ext, const VecX& reactions,
+                           const Reactions& r) const;
+  VecX trial_reactions() const;
+  double required_force() const;  // of the indenter under force control or with mass, on the body
+  double force_falls() const;     // what that loses per travel
   void begin_bonds();
   void accept_bonds();
   void move_to_touch();  // the indenter under force control, where it bears nothing
@@ -234,6 +248,7 @@ class Statics {
   double extrapolated_ = 0;  // of the movement of the last increment, with which this one was begun
   VecX expected_;            // u that it was begun with, where the start of slip follows the travel
   int controlled_ = -1;      // contact under force control
+  VecX f_ext_start_;         // of a body in motion: loads where the increment began (3 n) [N]
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found
   // Of an increment of which t is an unknown: sphere |u - u_n| = size around the accepted state, or

@@ -58,7 +58,9 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
     : threads_(threads) {
   const Dofs& dofs = body.dofs();
   if (take_iterative(body, contacts, linear_by)) return;
-  const bool loose = !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
+  // Inertia resists every motion.
+  const bool loose =
+      !body.added_term() && !contacts.empty() && !zero_energy_modes(body.mesh(), dofs).empty();
   levels_ = CandidateLevels(contacts, body.mesh().X);
   for (const RigidContact& contact : contacts) candidates_.push_back(contact.nodes);
   const std::size_t candidates = levels_.on_the_path(reach);

@@ -103,7 +103,13 @@ struct Measurement {
     return sum / static_cast<double>(m.nodes.size());
   }
   double operator()(OfSet value) const {
-    SetState set{mean(state.u, m.nodes), Vec3::Zero(), m.length};
+    SetState set;
+    set.u = mean(state.u, m.nodes);
+    set.length = m.length;
+    if (!state.velocity.empty()) {
+      set.velocity = mean(state.velocity, m.nodes);
+      set.acceleration = mean(state.acceleration, m.nodes);
+    }
     for (int node : m.nodes) set.reaction += state.reaction[node];
     if (!m.facets.empty()) set.swept = swept_volume(body.mesh(), m.facets, state.u);
     return value(set);

@@ -104,6 +104,7 @@ struct StepState {
   double t = 0, increment = 0, residual = 0;
   int iterations = 0;
   std::vector<Vec3> u, reaction;
+  std::vector<Vec3> velocity, acceleration;  // (n) of a body in motion, else empty
   Vec3 u_ind = Vec3::Zero(), force_ind = Vec3::Zero();
   int stick = 0, slip = 0;                  // nodes of all contacts
   std::map<std::string, double> histories;  // those that the unloaded state lacks are 0

@@ -24,10 +24,12 @@ namespace langer {
 struct StepState;
 // The state of a node set.
 struct SetState {
-  Vec3 u = Vec3::Zero();         // mean [mm]
-  Vec3 reaction = Vec3::Zero();  // sum [N]
-  double length = 1;             // reference length of a strain [mm]
-  double swept = 0;              // volume swept by its facets [mm^3]
+  Vec3 u = Vec3::Zero();             // mean [mm]
+  Vec3 reaction = Vec3::Zero();      // sum [N]
+  Vec3 velocity = Vec3::Zero();      // mean [mm/s]
+  Vec3 acceleration = Vec3::Zero();  // mean [mm/s^2]
+  double length = 1;                 // reference length of a strain [mm]
+  double swept = 0;                  // volume swept by its facets [mm^3]
 };
 // The extremes of the body; the von Mises stress is that of the nodal averages.
 struct Extremes {

@@ -44,6 +44,18 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"viscous_work", "N mm",
      "done against viscous branches since rest: dissipated, or stored until they relax"},
     {"time", "s", "since the beginning of the path"},
+    {"kinetic_energy", "N mm", "of a body in motion, and of an indenter with mass; never negative"},
+    {"kinetic_energy_at_start", "N mm", "the same at the beginning of the path"},
+    {"mechanical_energy", "N mm",
+     "kinetic and stored energy, work against viscous branches and loss to Rayleigh's damping"},
+    {"damped_energy", "N mm", "lost to Rayleigh's damping since the beginning"},
+    {"energy_balance", "N mm",
+     "change of the mechanical energy since the beginning without the work of supports, loads, "
+     "weight and indenters: what the time scheme gains; negative where it loses"},
+    {"momentum_*", "N s", "of the body in motion along that axis"},
+    {"indenter_velocity", "mm/s", "of an indenter with mass, along its direction"},
+    {"indenter_acceleration", "mm/s^2", "of an indenter with mass, along its direction"},
+    {"indenter_carried", "mm/s^2", "what the time scheme carries on of that acceleration"},
     {"u_ind", "mm", "displacement of the first indenter: x, y, z"},
     {"force_ind", "N", "of the body on the indenter, of several their sum: x, y, z"},
     {"force_error", "N", "half width of the error bar of the force, by refinement; never negative"},
@@ -126,6 +138,11 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
 });
 // The fields of elements.
 inline constexpr auto field_lines = std::to_array<HistoryLine>({
+    {"velocity", "mm/s", "of a node of a body in motion: x, y, z"},
+    {"acceleration", "mm/s^2", "of a node of a body in motion: x, y, z"},
+    {"carried", "mm/s^2",
+     "what the time scheme carries on: the averaged acceleration of generalised_alpha; of theta a "
+     "force in N"},
     {"J", "-", "mean det F of an element; 1 at rest"},
     {"pressure", "MPa", "tr(sigma)/3 of an element, the mean stress: positive in tension"},
     {"von_mises", "MPa", "of an element's mean Cauchy stress; never negative"},

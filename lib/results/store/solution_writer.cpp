@@ -238,7 +238,7 @@ void SolutionWriter::State::append(const StepRecord& record) {
   for (const char* name : {"u", "reaction"})
     add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
   for (const auto& [name, values] : record.point_fields) {
-    extend<double>(points, name, {3}, n, flat(values), "-");
+    extend<double>(points, name, {3}, n, flat(values), solution::unit_of(name));
     add(point_offsets, name, static_cast<std::int64_t>(n) * n_steps);
   }
   for (const auto& [name, values] : record.cell_fields) {

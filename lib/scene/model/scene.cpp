@@ -20,6 +20,7 @@
 #include "scene/model/scene_adhesion.hpp"
 #include "scene/model/scene_bodies.hpp"
 #include "scene/model/scene_loads.hpp"
+#include "scene/model/scene_motion.hpp"
 #include "scene/model/scene_section.hpp"
 
 namespace langer {
@@ -321,6 +322,17 @@ void refuse_start_inside(const RigidContact& rigid, const Mesh& mesh, const std:
     }
 }
 
+// One indenter's travel may be unknown.
+void check_only_one(const Scene& scene, const std::string& key, const Find& where,
+                    std::vector<Error>& errors) {
+  for (const RigidContact& other : scene.contacts)
+    if (other.control)
+      errors.push_back(
+          {where(key), key,
+           fmt::format("found, and the travel of \"{}\" is unknown as well", other.name),
+           "one indenter under force control or with a mass", "others may follow `motion`"});
+}
+
 // How far a force pushes is not known before: candidates are named, and what is across its
 // direction moves as prescribed.
 void check_control(const Scene& scene, const ContactConfig& contact, const std::string& key,
@@ -436,6 +448,12 @@ void add_contacts(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& con
     if (contact.rotation)
       take_stops(contact.rotation->points, config.path.seconds, key + ".rotation", scene.stops,
                  nodes);
+    if (contact.free && contact.on.empty())
+      nodes.errors.push_back({where(key), key + ".on", "missing, with free given",
+                              "a node set that may touch the indenter",
+                              "where its inertia takes the indenter is not known before"});
+    if (contact.free && contact.on.empty()) continue;
+    if (contact.free) check_only_one(scene, key + ".free", where, nodes.errors);
     if (contact.control) check_control(scene, contact, key, where, nodes.errors);
     if (contact.on.empty() && contact.control) continue;
     if (contact.on.empty()) {
@@ -478,6 +496,9 @@ RigidContact indenter_of(const std::string& name, const ContactConfig& contact,
   if (contact.control)
     rigid.control = ForceControl{vec(contact.control->along).normalized(),
                                  history_of(contact.control->force, seconds)};
+  if (contact.free)
+    rigid.control = ForceControl{vec(contact.free->along).normalized(), History{},
+                                 contact.free->mass_g * tonne_per_gram, contact.free->speed()};
   if (contact.rotation)
     rigid.rotation = Rotation{axis_of(rigid.shape).value(), radians(*contact.rotation, seconds)};
   return rigid;
@@ -527,6 +548,7 @@ Scene make_scene(const SolveConfig& config, const Mesh& mesh,
   if (!config.bodies.empty() || !config.touching.empty())
     add_surfaces(scene, config, mesh, nodes.prescribed, where, nodes.errors);
   add_materials(scene, config, mesh, material, where, nodes.errors);
+  if (config.in_motion()) add_motion(scene, config, mesh, where, nodes.errors);
   if (mesh.section)
     for (Error& error : section_errors(config, mesh, scene, where))
       nodes.errors.push_back(std::move(error));

@@ -29,6 +29,9 @@ struct Scene {
   std::vector<RigidContact> contacts;         // empty: no contact code runs
   std::vector<SurfaceContact> surfaces = {};  // deformable surfaces that touch
   std::vector<TurnedSet> turned;              // their nodes are prescribed in dofs
+  std::optional<InertiaOptions> motion;       // none: equilibrium
+  std::optional<double> motion_step;          // length of all increments [s]; none: by motion_error
+  double motion_error = 1e-3;                 // that an increment may make
   std::vector<double> stops;  // values of t where an indenter turns, or a history has a kink
 
   int families()

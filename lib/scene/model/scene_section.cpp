@@ -89,6 +89,12 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
     if (!has_symmetry_of(mesh.section->of, contact.rigid.value()))
       refuse(key + ".rigid", "found a shape or place without its symmetry", shape,
              "a block is needed for others");
+    if (const auto& free = contact.free;
+        free && (free->along[2] != 0 || (is_round && free->along[0] != 0)))
+      refuse(
+          key + ".free.along",
+          fmt::format("found [{:g}, {:g}, {:g}]", free->along[0], free->along[1], free->along[2]),
+          along_axis, "a block is needed for others");
     if (const auto& control = contact.control;
         control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
       refuse(key + ".control.along",

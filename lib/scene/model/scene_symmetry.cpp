@@ -14,6 +14,7 @@
 #include "mechanics/mesh/section.hpp"
 #include "scene/model/bond_records.hpp"
 #include "scene/model/scene_image.hpp"
+#include "scene/model/scene_motion.hpp"
 #include "scene/model/scene_section.hpp"
 
 namespace langer {
@@ -76,6 +77,8 @@ class Found {
       return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
     };
     SceneImage image = g ? image_in(scene_) : SceneImage{"the mesh", {}};
+    if (image.broken.empty() && scene_.motion && !keeps_motion(op.signs, *scene_.motion))
+      image.broken = "gravity, or the velocity or spin at the beginning";
     if (image.broken.empty() && varied_)
       if (const SceneImage other = image_in(*varied_); !other.broken.empty())
         image.broken = other.broken + ", where the numbers of `sensitivity` are others";
@@ -156,6 +159,9 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
   scene_.formulation = scene.formulation;
   scene_.materials = scene.materials;
   scene_.stops = scene.stops;
+  scene_.motion = scene.motion;
+  scene_.motion_step = scene.motion_step;
+  scene_.motion_error = scene.motion_error;
   scene_.directions = scene.directions.of_cells(quotient_.cell);
   take_supports(scene);
   take_loads(scene);
@@ -381,6 +387,11 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
         behind ? Vec3::Zero()
                : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
   }
+  for (auto& [name, values] : record.point_fields) {
+    const std::vector<Vec3>& kept = reduced.point_fields.at(name);
+    values.clear();
+    for (const Image& image : quotient_.node_image) values.push_back(image.T * kept[image.of]);
+  }
   for (auto& [name, values] : record.cell_fields) {
     const std::vector<double>& kept = reduced.cell_fields.at(name);
     values.clear();
@@ -460,6 +471,19 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     if (quotient_.tie[i].of == static_cast<int>(i))
       state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) =
           whole.u[static_cast<std::size_t>(quotient_.node[i])];
+  if (scene_.motion) {
+    const auto kept = [&](const std::vector<Vec3>& of_whole, bool shared) {
+      VecX out = VecX::Zero(state.u.size());
+      for (std::size_t i = 0; i < quotient_.node.size(); ++i) {
+        if (quotient_.tie[i].of != static_cast<int>(i)) continue;
+        const double share = shared ? quotient_.node_share[i] : 1;
+        out.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+            share * of_whole[static_cast<std::size_t>(quotient_.node[i])];
+      }
+      return out;
+    };
+    state.motion = recorded_motion(whole, kept);
+  }
   for (std::size_t c = 0; c < origin_.size(); ++c) {
     std::vector<Vec3>& r = state.r.emplace_back();
     for (std::size_t i = 0; i < origin_[c].size(); ++i) {

@@ -85,6 +85,7 @@ struct ContactConfig {
   double friction = 0;
   std::vector<WaypointConfig> motion;
   std::optional<ControlConfig> control = {};
+  std::optional<FreeConfig> free = {};
   std::optional<HistoryConfig> rotation = {};
   std::optional<Adhesion> adhesion = {};
   std::optional<std::string> against = {};
@@ -104,6 +105,8 @@ struct ContactConfig {
       "where the indenter goes, straight from point to point; with control only across its direction");
     v(&ContactConfig::control, "control", unit::none,
       "the indenter is pushed with a given force, and its travel is found");
+    v(&ContactConfig::free, "free", unit::none,
+      "with dynamics: the indenter has a mass and flies by itself along a direction");
     v(&ContactConfig::rotation, "rotation", unit::deg,
       "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
       "history, as a displacement");
@@ -122,7 +125,14 @@ struct ContactConfig {
     if (rotation && adhesion)
       found.push_back({"rotation", "found together with adhesion", "one of the two",
                        "bonds follow the place of an indenter, not its rotation"});
-    if (control && motion.empty()) return found;
+    if (free && control)
+      found.push_back({"free", "found together with control", "one of the two", ""});
+    if (free && adhesion)
+      found.push_back({"free", "found together with adhesion", "one of the two", ""});
+    if (free && !motion.empty())
+      found.push_back({"motion", "found together with free", "one of the two",
+                       "an indenter with mass goes where its inertia takes it"});
+    if (free || (control && motion.empty())) return found;
     for (Complaint& complaint :
          place_complaints(motion, "motion", "{t: 1, to: [x, y, z]}, or control in its place"))
       found.push_back(std::move(complaint));
@@ -340,6 +350,7 @@ struct SolveConfig {
   // Set by expanded() (scene/model/scene_bodies.hpp), not by the config: contacts of deformable
   // surfaces, which then are no longer among `contacts`.
   std::map<std::string, ContactConfig> touching = {};
+  std::optional<DynamicsConfig> dynamics;
   LoadPathOptions path;
   std::variant<NewtonOptions, KinsolOptions> solver;
   StabilityCheck stability = StabilityCheck::automatic;
@@ -353,7 +364,6 @@ struct SolveConfig {
   std::vector<std::string> sensitivity;
   std::optional<UncertaintyBy> uncertainty;
   std::optional<CellStress> cell_stress;
-  std::optional<DynamicsConfig> dynamics;
   std::optional<ModesConfig> modes;
   std::optional<HarmonicConfig> harmonic;
   int threads = 1, blas_threads = 1;
@@ -394,6 +404,9 @@ struct SolveConfig {
       "imposed displacements, forces, tractions and pressures");
     v(&SolveConfig::contacts, "contacts", unit::none,
       "rigid indenters, and pairs of deformable surfaces, by name");
+    v(&SolveConfig::dynamics, "dynamics", unit::none,
+      "the body has inertia, and moves in time: path.seconds; with modes or harmonic it gives the "
+      "density alone; none: equilibrium");
     v(&SolveConfig::path, "path", unit::none, "increments of the load path, t from 0 to 1");
     v(&SolveConfig::solver, "solver", unit::none, "nonlinear solver");
     v(&SolveConfig::stability, "stability", unit::none,
@@ -427,7 +440,6 @@ struct SolveConfig {
     v(&SolveConfig::cell_stress, "cell_stress", unit::none,
       "writes the Cauchy stress of each cell, its mean over the Gauss points, into the solution: tensor; principal: its principal stresses "
       "and directions as well. Pressure and von Mises stress of cells are always there");
-    v(&SolveConfig::dynamics, "dynamics", unit::none, "inertia of the body");
     v(&SolveConfig::modes, "modes", unit::none,
       "natural frequencies and shapes of small vibrations about the state at the end of the path");
     v(&SolveConfig::harmonic, "harmonic", unit::none,
@@ -449,7 +461,8 @@ struct SolveConfig {
     complain_of_bodies(found);
     for (const auto& [name, body] : materials)
       needs_stiffness(body.material, "materials." + name + ".material.matrix");
-    if (loads.empty() && contacts.empty() && !modes && !(harmonic && harmonic->face))
+    complain_of_motion(found);
+    if (loads.empty() && contacts.empty() && !dynamics && !modes && !(harmonic && harmonic->face))
       found.push_back({"", "nothing moves", "loads or contacts", ""});
     if (mesh && !mesh->exports.empty())
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
@@ -519,6 +532,10 @@ struct SolveConfig {
     return found;
   }
 
+  // Whether the body moves in time. With modes or harmonic it rests, and `dynamics` gives the
+  // density for small movements about that state.
+  bool in_motion() const { return dynamics && !modes && !harmonic; }
+
  private:
   // What contact of deformable surfaces, or a scene of several bodies, does not go together with.
   void complain_of_bodies(std::vector<Complaint>& found) const {
@@ -564,7 +581,56 @@ struct SolveConfig {
     for (const auto& [name, contact] : contacts) {
       refuse(contact.adhesion.has_value(), "contacts." + name + ".adhesion", "none");
       refuse(contact.control.has_value(), "contacts." + name + ".control", "motion");
+      refuse(contact.free.has_value(), "contacts." + name + ".free", "motion");
     }
+  }
+  // Inertia together with what knows equilibria only.
+  void complain_of_motion(std::vector<Complaint>& found) const {
+    for (const auto& [name, contact] : contacts)
+      if (contact.free && !in_motion())
+        found.push_back({"contacts." + name + ".free", "found without dynamics",
+                         "dynamics: {density_kg_m3: 1100}",
+                         "an indenter with mass moves in time, with a body that has inertia"});
+    if (!in_motion()) return;
+    const auto refuse = [&](const std::string& key, const std::string& expected) {
+      found.push_back({key, "found together with dynamics", expected, "it is for equilibria"});
+    };
+    if (path.arc_length) refuse("path.arc_length", "path: {seconds: ...}");
+    if (branch) refuse("branch", "none");
+    if (imperfection) refuse("imperfection", "none");
+    if (!bodies.empty()) refuse("bodies", "one mesh");
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (loads[i].volume) refuse("loads[" + std::to_string(i) + "].volume", "pressure");
+    if (!path.seconds)
+      found.push_back({"dynamics", "found on a path without seconds", "path: {seconds: ...}", ""});
+    if (accuracy) refuse("accuracy", "none");
+    if (fidelity) refuse("fidelity", "none");
+    if (estimate && *estimate != EstimateBy::none) refuse("estimate", "none");
+    if (!sensitivity.empty()) refuse("sensitivity", "none");
+    if (uncertainty == UncertaintyBy::linear) refuse("uncertainty", "none");
+    if (reduce == Reduce::automatic) refuse("reduce", "none");
+    if (stability == StabilityCheck::each_step || stability == StabilityCheck::last)
+      refuse("stability", "off");
+    if (on_unstable == OnUnstable::stop) refuse("on_unstable", "warn");
+    if (std::holds_alternative<KinsolOptions>(solver)) refuse("solver.kinsol", "newton");
+    if (const auto* newton = std::get_if<NewtonOptions>(&solver);
+        newton && newton->linear == LinearBy::iterative)
+      refuse("solver.newton.linear", "direct");
+    for (const auto& [name, contact] : contacts)
+      if (contact.adhesion) refuse("contacts." + name + ".adhesion", "none");
+    if (dynamics->scheme != Scheme::energy_momentum) return;
+    const auto unlike = [&](const std::string& key, const std::string& hint) {
+      found.push_back({key, "found with scheme: energy_momentum", "another scheme", hint});
+    };
+    for (const auto& [name, contact] : contacts)
+      unlike("contacts." + name,
+             "its balance is that of the middle of a step, and contact at its end");
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (!loads[i].on_surface())
+        unlike("loads[" + std::to_string(i) + "]",
+               "sets that are moved do work between the ends of a step");
+    if (material && is_viscous(*material))
+      unlike("material", "viscous branches know the end of a step");
   }
   // The key that requests an accuracy; empty if none does.
   std::string key_of_accuracy() const {
@@ -603,6 +669,14 @@ struct SolveConfig {
     };
     if (modes) look_at("modes");
     if (harmonic) look_at("harmonic");
+    if ((modes || harmonic) && !bodies.empty())
+      found.push_back({modes ? "modes" : "harmonic", "found together with bodies", "one mesh",
+                       "small movements of surfaces that touch are not linearised"});
+    for (std::size_t i = 0; (modes || harmonic) && i < loads.size(); ++i)
+      if (loads[i].volume)
+        found.push_back({"loads[" + std::to_string(i) + "].volume",
+                         "found together with modes or harmonic", "pressure",
+                         "a given volume is no part of the tangent of small movements"});
     if (!harmonic || harmonic->face) return;
     if (harmonic->indenter) {
       if (!contacts.count(*harmonic->indenter))

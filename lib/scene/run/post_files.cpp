@@ -1,4 +1,5 @@
 #include "scene/run/post_files.hpp"
+#include "scene/model/scene_motion.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -93,6 +94,10 @@ StepState state_of(const StepRecord& record) {
       state.slip += status == 2;
     }
   state.histories = record.scalars;
+  if (const auto v = record.point_fields.find(velocity_field); v != record.point_fields.end()) {
+    state.velocity = v->second;
+    state.acceleration = record.point_fields.at(acceleration_field);
+  }
   return state;
 }
 

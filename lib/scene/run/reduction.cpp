@@ -28,7 +28,7 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
   at_a_point = at_a_point && !on_a_mesh;
   const SymmetryChoice wanted = all_of_it ? SymmetryChoice::none : config.symmetry;
   // A change of fibre angles would shear a body that is only stretched: no single hexahedron then.
-  if (at_a_point && !parameters.turns_fibres())
+  if (at_a_point && !scene.motion && !parameters.turns_fibres())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
   if (config.sensitivity.empty())

@@ -8,6 +8,7 @@
 #include "mechanics/solve/release.hpp"
 #include "scene/model/torque.hpp"
 #include "scene/run/equilibrium_by.hpp"
+#include "scene/run/motion_record.hpp"
 #include "scene/run/step_record.hpp"
 
 namespace langer {
@@ -30,6 +31,12 @@ StaticsOptions with_seconds(StaticsOptions options, const LoadPathOptions& path)
   return options;
 }
 
+StaticsOptions with_inertia(StaticsOptions options, Inertia* inertia) {
+  options.inertia = inertia;
+  if (inertia) options.linear_by = LinearBy::direct;
+  return options;
+}
+
 }  // namespace
 
 Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& material,
@@ -39,8 +46,10 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
       body(
           reduction.assembler(by_ranks ? divided(reduction, config, serial_reason) : std::nullopt)),
-      statics(body, reduction.scene().contacts, threads_of(config), reduction.scene().surfaces),
-      path(config.path),
+      inertia(inertia_of(reduction, body, config.path)),
+      statics(body, reduction.scene().contacts, with_inertia(threads_of(config), inertia.get()),
+              reduction.scene().surfaces),
+      path(motion_path(scene, config.path)),
       solver(reduction.solver(config.solver)) {}
 
 Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
@@ -49,9 +58,11 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
       body(reduction.assembler()),
-      statics(body, reduction.scene().contacts, with_seconds(options, path_),
+      inertia(inertia_of(reduction, body, path_)),
+      statics(body, reduction.scene().contacts,
+              with_inertia(with_seconds(options, path_), inertia.get()),
               reduction.scene().surfaces),
-      path(path_),
+      path(motion_path(scene, path_)),
       solver(std::move(solver_)) {}
 
 // Restores a recorded step and the one before it. Both are needed for the same continuation to the
@@ -211,6 +222,10 @@ RunEnd Run::follow(const RunListener& listener) {
       }
     }
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
+    if (report.converged() && inertia && !scene.motion_step) {
+      report.time_error = std::max(report.time_error,
+                                   path.time_error / scene.motion_error * statics.motion_error());
+    }
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
   };

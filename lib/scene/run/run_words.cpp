@@ -20,6 +20,7 @@ double report_scene(const Voice& voice, const Run& run) {
 }
 
 std::string held_by_contact(const Run& run, const Run::Where& where) {
+  if (run.inertia) return "";  // inertia resists every motion
   const std::string loose =
       zero_energy_modes(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
   if (!loose.empty() && run.scene.contacts.empty())

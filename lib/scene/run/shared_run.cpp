@@ -13,6 +13,7 @@ std::string single_rank_reason(const SolveConfig& config, bool may_be_an_image) 
   if (!newton) return "solver: kinsol has a factor";
   if (newton->linear == LinearBy::direct)
     return "solver.newton.linear: direct is a factor, which one process makes";
+  if (config.in_motion()) return "a body in motion is solved by a factor";
   if (config.accuracy || config.fidelity || config.reduce == Reduce::automatic)
     return "other models may be solved together with this one";
   if (config.estimate && *config.estimate != EstimateBy::none &&

@@ -7,7 +7,9 @@
 #include "mechanics/material/at_rest.hpp"
 #include "results/store/material_file.hpp"
 #include "scene/model/bond_records.hpp"
+#include "scene/model/scene_motion.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "scene/run/motion_record.hpp"
 #include "scene/run/surface_records.hpp"
 
 namespace langer {
@@ -157,6 +159,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
     record.scalars[of_volume("pumped_volume", body.loads(), i)] = body.swept_volume(i, state.u);
   }
   if (!statics.surfaces().empty()) record_surfaces(statics, record);
+  if (statics.inertia()) record_motion(statics, body, record);
   const auto& contacts = statics.contacts();
   if (contacts.empty()) return record;
   const auto defects = statics.defects();
@@ -196,6 +199,14 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
   for (const SurfaceContact& surface : scene.surfaces)
     state.r.push_back(record.contacts.at(surface.name).r);
   take_bonds(record, scene.contacts, state);
+  if (!scene.motion) return state;
+  const auto kept = [](const std::vector<Vec3>& nodal, bool) {
+    VecX all(3 * static_cast<Eigen::Index>(nodal.size()));
+    for (std::size_t i = 0; i < nodal.size(); ++i)
+      all.segment<3>(3 * static_cast<Eigen::Index>(i)) = nodal[i];
+    return all;
+  };
+  state.motion = recorded_motion(record, kept);
   return state;
 }
 

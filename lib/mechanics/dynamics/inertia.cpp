@@ -1,0 +1,351 @@
+#include "mechanics/dynamics/inertia.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace langer {
+
+namespace {
+
+// Dofs of nodes whose mass is taken away; empty where none is.
+std::vector<char> massless_dofs(const Dofs& dofs, const std::vector<char>& nodes) {
+  std::vector<char> out;
+  if (nodes.empty()) return out;
+  out.assign(static_cast<std::size_t>(dofs.n), 0);
+  for (int i = 0; i < dofs.n; ++i) out[i] = nodes[dofs.node(i / 3)];
+  return out;
+}
+
+// A node with unknowns of its own.
+bool moves_itself(const Assembler& body, int node) {
+  return body.dofs().node(node) == node && !hanging_at(body.mesh().hanging, node);
+}
+
+Mat3 own_movement(const Dofs& dofs, int node) {
+  if (dofs.tie.empty()) return Mat3::Identity();
+  return dofs.tie[node].T;
+}
+
+// The tangent of the body at rest on all of its unknowns, prescribed ones included: (3 n, 3 n).
+Eigen::SparseMatrix<double> stiffness_at_rest(const Assembler& body) {
+  const Dofs& own = body.dofs();
+  OtherTangent all =
+      body.tangent_under(number_dofs(body.mesh().n_nodes(), {}, own.tie, body.mesh().hanging).dofs);
+  body.assemble_under(VecX::Zero(own.n), std::span(&all, 1));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < all.pattern.n; ++column) {
+    const int j = all.dofs.free[column];
+    for (int k = all.pattern.column_start[column]; k < all.pattern.column_start[column + 1]; ++k) {
+      const int i = all.dofs.free[all.pattern.row[k]];
+      entries.emplace_back(i, j, all.K[k]);
+      if (i != j) entries.emplace_back(j, i, all.K[k]);
+    }
+  }
+  Eigen::SparseMatrix<double> K(own.n, own.n);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+}  // namespace
+
+Inertia::Inertia(const Assembler& body, InertiaOptions options)
+    : body_(body),
+      options_(std::move(options)),
+      mass_(make_mass(body.model(), options_.density, options_.mass, options_.massless)),
+      massless_(massless_dofs(body.dofs(), options_.massless)) {
+  const Dofs& dofs = body_.dofs();
+  M_values_ = mass_.in_pattern(body_.pattern(), dofs);
+  tangent_ = M_values_;
+  if (options_.damping_mass > 0 || options_.damping_stiffness > 0) {
+    damping_ = options_.damping_mass * mass_.M;
+    if (options_.damping_stiffness > 0) {
+      *damping_ += options_.damping_stiffness * stiffness_at_rest(body_);
+    }
+    C_values_ = Mass{*damping_, 0}.in_pattern(body_.pattern(), dofs);
+  }
+  translates_ = {true, true, true};
+  for (std::size_t i = 0; i < dofs.tie.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (dofs.tie[i].T.col(k) != Vec3::Unit(k)) translates_[k] = false;
+    }
+  }
+  VecX g = VecX::Zero(dofs.n);
+  for (int i = 0; i < body_.mesh().n_nodes(); ++i) {
+    if (moves_itself(body_, i)) g.segment<3>(3 * i) = own_movement(dofs, i) * options_.gravity;
+  }
+  weight_ = mass_.M * g;
+  acceleration_ = VecX::Zero(dofs.n);
+  kinetic_at_start_ = at_start().kinetic;
+}
+
+MotionState Inertia::at_start() const {
+  const Dofs& dofs = body_.dofs();
+  MotionState start;
+  start.v = VecX::Zero(dofs.n);
+  start.a = start.v;
+  start.b = start.v;
+  start.reactions = start.v;
+  for (int i = 0; i < body_.mesh().n_nodes(); ++i) {
+    if (!moves_itself(body_, i)) continue;
+    const Vec3 arm = body_.mesh().X[i] - options_.spin_centre;
+    const Vec3 v = options_.velocity + options_.spin.cross(arm);
+    start.v.segment<3>(3 * i) = own_movement(dofs, i) * v;
+  }
+  for (const Prescribed& p : dofs.prescribed) start.v[p.dof] = p.rate(0) / options_.seconds;
+
+  VecX f = weight_;
+  if (damping_) f -= *damping_ * start.v;
+  std::vector<int> heavy;  // free dofs with mass
+  std::vector<int> row(static_cast<std::size_t>(dofs.n), -1);
+  for (int dof : dofs.free) {
+    if (!massless_.empty() && massless_[dof]) continue;
+    row[dof] = static_cast<int>(heavy.size());
+    heavy.push_back(dof);
+  }
+  if (!heavy.empty() && !f.isZero(0)) {
+    std::vector<Eigen::Triplet<double>> entries;
+    VecX rhs(static_cast<Eigen::Index>(heavy.size()));
+    for (std::size_t j = 0; j < heavy.size(); ++j) {
+      rhs[static_cast<Eigen::Index>(j)] = f[heavy[j]];
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass_.M, heavy[j]); entry; ++entry) {
+        const int i = row[static_cast<std::size_t>(entry.row())];
+        if (i >= 0) entries.emplace_back(i, static_cast<int>(j), entry.value());
+      }
+    }
+    const auto n = static_cast<Eigen::Index>(heavy.size());
+    Eigen::SparseMatrix<double> M(n, n);
+    M.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(M);
+    const VecX a = factor.solve(rhs);
+    for (std::size_t j = 0; j < heavy.size(); ++j) {
+      start.a[heavy[j]] = a[static_cast<Eigen::Index>(j)];
+    }
+  }
+  if (uses_impulses()) {
+    start.b = f;
+  } else {
+    start.b = start.a;
+  }
+  start.travel_v = options_.travel_velocity;
+  if (options_.travel_mass > 0) start.travel_a = options_.travel_weight / options_.travel_mass;
+  start.travel_b = start.travel_a;
+  start.kinetic = kinetic(start);
+  start.total = start.kinetic;
+  return start;
+}
+
+void Inertia::begin(const VecX& u, double travel, const MotionState& motion, double seconds) {
+  u0_ = u;
+  travel0_ = travel;
+  start_ = motion;
+  h_ = seconds;
+  const double rho = options_.rho_inf;
+  am_ = (2 * rho - 1) / (rho + 1);
+  af_ = rho / (rho + 1);
+  gamma_ = 0.5 - am_ + af_;
+  beta_ = 0.25 * (1 - am_ + af_) * (1 - am_ + af_);
+  switch (options_.scheme) {
+    case Scheme::generalised_alpha:
+      a_u_ = (1 - am_) / ((1 - af_) * beta_ * h_ * h_);
+      v_u_ = gamma_ / (beta_ * h_);
+      break;
+    case Scheme::energy_momentum:
+      a_u_ = 4 / (h_ * h_);
+      v_u_ = 2 / h_;
+      break;
+    case Scheme::theta:
+      a_u_ = 1 / (options_.theta * options_.xi * h_ * h_);
+      v_u_ = 1 / (options_.theta * h_);
+      break;
+  }
+  travel_k_ = options_.travel_mass * a_u_;
+  for (std::size_t i = 0; i < M_values_.size(); ++i) tangent_[i] = a_u_ * M_values_[i];
+  for (std::size_t i = 0; i < C_values_.size(); ++i) tangent_[i] += v_u_ * C_values_[i];
+}
+
+VecX Inertia::predicted() const {
+  const double h = conserves() ? 0.5 * h_ : h_;
+  VecX du = VecX::Zero(u0_.size());
+  for (int dof : body_.dofs().free) du[dof] = h * start_.v[dof];
+  return du;
+}
+
+double Inertia::predicted_travel() const {
+  return h_ * start_.travel_v + 0.5 * h_ * h_ * start_.travel_a;
+}
+
+// The acceleration that M meets in the balance, of the unknown of the scheme.
+VecX Inertia::acceleration_at(const VecX& u) const {
+  switch (options_.scheme) {
+    case Scheme::generalised_alpha: {
+      const VecX b1 =
+          (u - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
+      return ((1 - am_) * b1 + am_ * start_.b - af_ * start_.a) / (1 - af_);
+    }
+    case Scheme::energy_momentum:
+      return (4 / h_ * (u - u0_) - 2 * start_.v) / h_;
+    case Scheme::theta:
+      break;
+  }
+  return (velocity_at(u) - start_.v) / (h_ * options_.xi);
+}
+
+// The velocity that C meets in the balance.
+VecX Inertia::velocity_at(const VecX& u) const {
+  switch (options_.scheme) {
+    case Scheme::generalised_alpha: {
+      const VecX b1 =
+          (u - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
+      return start_.v + h_ * ((1 - gamma_) * start_.b + gamma_ * b1);
+    }
+    case Scheme::energy_momentum:
+      return 2 / h_ * (u - u0_);
+    case Scheme::theta:
+      break;
+  }
+  return ((u - u0_) / h_ - (1 - options_.theta) * start_.v) / options_.theta;
+}
+
+VecX Inertia::force(const VecX& u) {
+  acceleration_ = acceleration_at(u);
+  last_force_ = mass_.M * acceleration_ - weight_;
+  if (damping_) last_force_ += *damping_ * velocity_at(u);
+  if (uses_impulses()) last_force_ -= (1 - options_.xi) / options_.xi * start_.b;
+  return last_force_;
+}
+
+VecX Inertia::tangent_times(const VecX& du) const {
+  VecX out = a_u_ * (mass_.M * du);
+  if (damping_) out += v_u_ * (*damping_ * du);
+  return out;
+}
+
+double Inertia::travel_force(double travel) const {
+  const double m = options_.travel_mass;
+  const double moved = travel - travel0_;
+  if (uses_impulses()) {
+    const double v1 = (moved / h_ - (1 - options_.theta) * start_.travel_v) / options_.theta;
+    return (options_.travel_weight - m * (v1 - start_.travel_v) / h_) / options_.xi;
+  }
+  const double b1 =
+      (moved - h_ * start_.travel_v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.travel_b;
+  const double a1 = ((1 - am_) * b1 + am_ * start_.travel_b - af_ * start_.travel_a) / (1 - af_);
+  return options_.travel_weight - m * a1;
+}
+
+VecX Inertia::end_of(const VecX& u) const {
+  if (conserves()) return VecX(2 * u - u0_);
+  return u;
+}
+
+// The rigid motion closest to w in the norm of the mass, at positions x; of a body whose nodes are
+// tied, the translations that these allow.
+VecX Inertia::rigid_part(const VecX& x, const VecX& w) const {
+  const bool turns = body_.dofs().tie.empty();
+  MatX fields = MatX::Zero(w.size(), 6);
+  for (int i = 0; i < body_.mesh().n_nodes(); ++i) {
+    if (!moves_itself(body_, i)) continue;
+    for (int k = 0; k < 3; ++k) {
+      if (translates_[k]) fields(3 * i + k, k) = 1;
+      if (!turns) continue;
+      const Vec3 turned = Vec3::Unit(k).cross(Vec3(x.segment<3>(3 * i)));
+      fields.block<3, 1>(3 * i, 3 + k) = turned;
+    }
+  }
+  const MatX M_fields = mass_.M * fields;
+  const MatX A = fields.transpose() * M_fields;
+  return fields * A.completeOrthogonalDecomposition().solve(M_fields.transpose() * w);
+}
+
+VecX Inertia::projected_force(const VecX& u_m, const VecX& f, double energy_change) const {
+  const VecX du = 2 * (u_m - u0_);
+  VecX x = u_m;
+  for (int i = 0; i < body_.mesh().n_nodes(); ++i) x.segment<3>(3 * i) += body_.mesh().X[i];
+  const VecX d = mass_.M * (du - rigid_part(x, du));
+  const double work = d.dot(du);
+  const double whole = du.dot(mass_.M * du);
+  if (!(work > 1e-20 * whole)) return VecX::Zero(du.size());  // moves as a rigid body
+  return (energy_change - f.dot(du)) / work * d;
+}
+
+MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const {
+  MotionState end;
+  const double moved = travel1 - travel0_;
+  switch (options_.scheme) {
+    case Scheme::generalised_alpha: {
+      end.b = (u1 - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
+      end.a = acceleration_at(u1);
+      end.v = velocity_at(u1);
+      end.travel_b = (moved - h_ * start_.travel_v) / (beta_ * h_ * h_) -
+                     (0.5 - beta_) / beta_ * start_.travel_b;
+      end.travel_a =
+          ((1 - am_) * end.travel_b + am_ * start_.travel_b - af_ * start_.travel_a) / (1 - af_);
+      end.travel_v =
+          start_.travel_v + h_ * ((1 - gamma_) * start_.travel_b + gamma_ * end.travel_b);
+      break;
+    }
+    case Scheme::energy_momentum:
+      end.v = 2 / h_ * (u1 - u0_) - start_.v;
+      end.a = (end.v - start_.v) / h_;
+      end.b = end.a;
+      break;
+    case Scheme::theta:
+      end.v = velocity_at(u1);
+      end.a = (end.v - start_.v) / h_;
+      end.b = net + weight_;
+      if (damping_) end.b -= *damping_ * end.v;
+      end.travel_v = (moved / h_ - (1 - options_.theta) * start_.travel_v) / options_.theta;
+      end.travel_a = (end.travel_v - start_.travel_v) / h_;
+      break;
+  }
+  // A node without mass follows the others. Its velocity is that of the increment: differences of
+  // second order would remember the one with which it met an indenter.
+  for (std::size_t dof = 0; dof < massless_.size(); ++dof) {
+    if (!massless_[dof]) continue;
+    const auto i = static_cast<Eigen::Index>(dof);
+    end.v[i] = (u1[i] - u0_[i]) / h_;
+    end.a[i] = 0;
+    if (!uses_impulses()) end.b[i] = 0;
+  }
+  end.kinetic = kinetic(end);
+  return end;
+}
+
+double Inertia::kinetic(const MotionState& motion) const {
+  return 0.5 * motion.v.dot(mass_.M * motion.v) +
+         0.5 * options_.travel_mass * motion.travel_v * motion.travel_v;
+}
+
+Vec3 Inertia::momentum(const MotionState& motion) const {
+  const VecX Mv = mass_.M * motion.v;
+  Vec3 sum = Vec3::Zero();
+  for (Eigen::Index i = 0; i < Mv.size(); i += 3) sum += Mv.segment<3>(i);
+  for (int k = 0; k < 3; ++k) {
+    if (!translates_[k]) sum[k] = 0;  // of the parts that symmetry adds, the sum vanishes
+  }
+  return sum;
+}
+
+double Inertia::work_of_gravity(const VecX& du, double dtravel) const {
+  return weight_.dot(du) + options_.travel_weight * dtravel;
+}
+
+double Inertia::damped(const MotionState& before, const MotionState& after) const {
+  if (!damping_) return 0;
+  const VecX v = 0.5 * (before.v + after.v);
+  return h_ * v.dot(*damping_ * v);
+}
+
+double Inertia::error(const MotionState& after, double energy) const {
+  if (!(energy > 0)) return 0;
+  const double factor = uses_impulses() ? 0.5 : std::abs(beta_ - 1. / 6);
+  const VecX change = factor * h_ * (after.a - start_.a);
+  const double travel = factor * h_ * (after.travel_a - start_.travel_a);
+  const double squared = change.dot(mass_.M * change) + options_.travel_mass * travel * travel;
+  return std::sqrt(squared / (2 * energy));
+}
+
+}  // namespace langer

@@ -1,0 +1,133 @@
+// Inertia of a body in motion: what M a + C v adds to the balance of forces of one increment.
+//
+//   M a + F_int(u) + C v = F_ext(t) + M g + R
+//
+// Each scheme says how velocity and acceleration at the end of an increment of h seconds follow
+// from the displacements there. The increment is then solved like one without inertia, with a force
+// and a tangent more (assembly/added_term.hpp).
+//   generalised_alpha  Chung, Hulbert 1993, in the form of Arnold, Bruels 2007: the balance holds at
+//                      the end of the increment, where the acceleration is a; b carries the average:
+//                        u1 = u0 + h v0 + h^2 ((1/2 - beta) b0 + beta b1)
+//                        v1 = v0 + h ((1 - gamma) b0 + gamma b1)
+//                        (1 - am) b1 + am b0 = (1 - af) a1 + af a0
+//                      second order; rho_inf is what is left of the highest frequencies in a step
+//   energy_momentum    Simo, Tarnow 1992: balance in the middle of the increment, u_m = (u0 + u1)/2,
+//                      which is its unknown; a force along M (u1 - u0 - rigid part) makes the work
+//                      of the internal forces exactly the change of energy [Gonzalez 1996, for the
+//                      whole body]. Keeps energy and both momenta for any step
+//   theta              Feng, Joli, Cros, Magnain 2005: impulses in the place of accelerations,
+//                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
+//                      F without R, which is the mean reaction of the increment
+// C = c_m M + c_k K(0), Rayleigh's damping: c_m damps rigid motions, too.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/tensor/types.hpp"
+#include "mechanics/assembly/assembler.hpp"
+#include "mechanics/assembly/mass.hpp"
+#include "mechanics/dynamics/motion_state.hpp"
+
+namespace langer {
+
+enum class Scheme { generalised_alpha, energy_momentum, theta };
+constexpr auto names(Scheme) { return std::array{"generalised_alpha", "energy_momentum", "theta"}; }
+
+struct InertiaOptions {
+  std::vector<double> density;  // by body [t/mm3]
+  MassKind mass = MassKind::consistent;
+  Scheme scheme = Scheme::generalised_alpha;
+  double rho_inf = 0.8;
+  double theta = 0.5, xi = 0.5;
+  double damping_mass = 0;       // c_m [1/s]
+  double damping_stiffness = 0;  // c_k [s]
+  Vec3 gravity = Vec3::Zero();   // [mm/s2]
+  Vec3 velocity = Vec3::Zero();  // of the body at the beginning [mm/s]
+  Vec3 spin = Vec3::Zero();      // of the body at the beginning [1/s]
+  Vec3 spin_centre = Vec3::Zero();
+  double travel_mass = 0;      // of an indenter with inertia [t]
+  double travel_velocity = 0;  // along its direction [mm/s]
+  double travel_weight = 0;    // along its direction [N]
+  std::vector<char> massless;  // by node: the mass of contact nodes is moved inwards; empty: none
+  double seconds = 1;          // of the path
+};
+
+class Inertia : public AddedTerm {
+ public:
+  // Refers to the body. Throws std::invalid_argument where make_mass does.
+  Inertia(const Assembler& body, InertiaOptions options);
+
+  const InertiaOptions& options() const { return options_; }
+  const Mass& mass() const { return mass_; }
+  bool conserves() const { return options_.scheme == Scheme::energy_momentum; }
+  bool uses_impulses() const { return options_.scheme == Scheme::theta; }
+  // The reactions of the balance times this are those of the increment.
+  double reaction_scale() const { return uses_impulses() ? options_.xi : 1; }
+
+  // Velocities as prescribed, accelerations from the balance at rest: M a = M g - C v.
+  MotionState at_start() const;
+  // An increment of `seconds` from there.
+  void begin(const VecX& u, double travel, const MotionState& motion, double seconds);
+  // What an inertial motion adds to the displacements of free dofs until the unknown is found.
+  VecX predicted() const;
+  double predicted_travel() const;
+
+  VecX force(const VecX& u) override;
+  const std::vector<double>& tangent() const override { return tangent_; }
+  VecX tangent_times(const VecX& du) const override;
+  const VecX& last_force() const { return last_force_; }  // (3 n) of the last call of force()
+
+  // The force that the indenter with mass gives to the body at this travel, and how fast it falls.
+  double travel_force(double travel) const;
+  double travel_stiffness() const { return travel_k_; }
+
+  // The displacements at the end, of the unknown of the scheme.
+  VecX end_of(const VecX& u) const;
+  // energy_momentum: the force that makes the work of internal forces f (3 n) at the middle that of
+  // the change of energy.
+  VecX projected_force(const VecX& u_m, const VecX& f, double energy_change) const;
+
+  // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
+  MotionState end(const VecX& u1, double travel1, const VecX& net) const;
+
+  double at_start_kinetic() const { return kinetic_at_start_; }  // [N mm]
+  double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
+  Vec3 momentum(const MotionState& motion) const;                // of the body [N s]
+  double work_of_gravity(const VecX& du, double dtravel) const;  // [N mm]
+  double damped(const MotionState& before, const MotionState& after) const;  // [N mm]
+  // Error of displacement in the increment, per time and in the norm of the kinetic energy, over
+  // the speed that belongs to `energy` [Zienkiewicz, Xie 1991].
+  double error(const MotionState& after, double energy) const;
+  // Size of M a [N].
+  double force_scale() const { return (mass_.M * acceleration_).norm(); }
+
+ private:
+  VecX rigid_part(const VecX& x, const VecX& w) const;
+  VecX acceleration_at(const VecX& u) const;
+  VecX velocity_at(const VecX& u) const;
+
+  const Assembler& body_;
+  InertiaOptions options_;
+  Mass mass_;
+  std::optional<Eigen::SparseMatrix<double>> damping_;  // C
+  std::vector<double> M_values_, C_values_;             // in the tangent's pattern
+  VecX weight_;                                         // M g (3 n)
+  std::vector<char> massless_;                          // by dof
+  std::array<bool, 3> translates_{};  // ties allow a translation of the body along an axis
+
+  // of the increment
+  double h_ = 1;
+  double am_ = 0, af_ = 0, beta_ = 0.25, gamma_ = 0.5;
+  double a_u_ = 0, v_u_ = 0;  // d a/du, d v/du of the unknown
+  double travel_k_ = 0;
+  VecX u0_;
+  double travel0_ = 0;
+  MotionState start_;
+  std::vector<double> tangent_;
+  VecX last_force_, acceleration_;
+  double kinetic_at_start_ = 0;
+};
+
+}  // namespace langer

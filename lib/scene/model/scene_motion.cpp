@@ -1,0 +1,157 @@
+#include "scene/model/scene_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/text.hpp"
+#include "mechanics/mesh/bounding_box.hpp"
+
+namespace langer {
+
+namespace {
+
+void add_densities(InertiaOptions& motion, const DynamicsConfig& dynamics, const Mesh& mesh,
+                   const std::function<Place(const std::string&)>& where,
+                   std::vector<Error>& errors) {
+  motion.density.assign(std::max<std::size_t>(1, mesh.bodies.size()),
+                        dynamics.density_kg_m3 * tonne_per_mm3);
+  for (const auto& [name, density] : dynamics.densities_kg_m3) {
+    const auto found = std::find(mesh.bodies.begin(), mesh.bodies.end(), name);
+    if (found == mesh.bodies.end()) {
+      std::string list;
+      for (const std::string& body : mesh.bodies) append(list, ", ", body);
+      const std::string key = "dynamics.densities_kg_m3." + name;
+      errors.push_back({where(key), key, fmt::format("found \"{}\"", name),
+                        "a body of the mesh: " + list, did_you_mean(nearest(name, mesh.bodies))});
+      continue;
+    }
+    motion.density[static_cast<std::size_t>(found - mesh.bodies.begin())] = density * tonne_per_mm3;
+  }
+}
+
+// A body all of whose nodes may touch indenters would have no mass left.
+void refuse_without_mass(const Scene& scene, const Mesh& mesh, const Place& place,
+                         std::vector<Error>& errors) {
+  std::vector<char> touches(mesh.X.size(), 0);
+  for (const RigidContact& contact : scene.contacts) {
+    for (int node : contact.nodes) touches[static_cast<std::size_t>(node)] = 1;
+  }
+  for (int e = 0; e < mesh.n_cells(); ++e) {
+    const auto nodes = mesh.cell(e);
+    const bool keeps =
+        std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !touches[node]; });
+    if (keeps) return;
+  }
+  errors.push_back({place, "dynamics.contact_mass",
+                    "every node may touch an indenter, and would lose its mass",
+                    "kept, or more cells", "`on` of a contact names the nodes that may touch it"});
+}
+
+// Motions that leave the plane of a section or turn it.
+void refuse_out_of_section(const DynamicsConfig& dynamics, const Mesh& mesh,
+                           const std::function<Place(const std::string&)>& where,
+                           std::vector<Error>& errors) {
+  if (!mesh.section) return;
+  const bool is_round = mesh.section->of == SectionOf::axisymmetric;
+  const auto refuse = [&](const char* name, bool wrong) {
+    if (!wrong) return;
+    const std::string key = std::string("dynamics.") + name;
+    errors.push_back({where(key), key, "leaves the plane of the section",
+                      is_round ? "a direction along y" : "a direction in the plane of x and y",
+                      "a block is needed for others"});
+  };
+  const auto leaves = [&](const std::array<double, 3>& v) {
+    return v[2] != 0 || (is_round && v[0] != 0);
+  };
+  refuse("gravity", leaves(dynamics.gravity));
+  refuse("velocity", leaves(dynamics.velocity));
+  const auto& spin = dynamics.spin;
+  refuse("spin", spin[0] != 0 || spin[1] != 0 || (is_round && spin[2] != 0));
+}
+
+}  // namespace
+
+void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
+                const std::function<Place(const std::string&)>& where, std::vector<Error>& errors) {
+  const DynamicsConfig& dynamics = *config.dynamics;
+  InertiaOptions motion;
+  add_densities(motion, dynamics, mesh, where, errors);
+  motion.mass = dynamics.mass;
+  if (motion.mass == MassKind::lumped && mesh.cell().second_order()) {
+    errors.push_back(
+        {where("dynamics.mass"), "dynamics.mass",
+         fmt::format("lumped, of cells {}", names(mesh.type)[static_cast<int>(mesh.type)]),
+         "consistent", "sums of rows are for hex8"});
+  }
+  motion.scheme = dynamics.scheme;
+  motion.rho_inf = dynamics.rho_inf.value_or(scene.contacts.empty() ? 0.8 : 1);
+  motion.theta = dynamics.theta;
+  motion.xi = dynamics.xi;
+  if (dynamics.damping) {
+    motion.damping_mass = dynamics.damping->mass_per_s;
+    motion.damping_stiffness = dynamics.damping->stiffness_s;
+  }
+  motion.gravity = vec(dynamics.gravity);
+  motion.velocity = vec(dynamics.velocity);
+  motion.spin = vec(dynamics.spin);
+  motion.spin_centre = bounding_box(mesh.X).middle();
+  motion.seconds = config.path.seconds.value_or(1);
+  for (const RigidContact& contact : scene.contacts) {
+    if (!contact.control || !contact.control->free()) continue;
+    motion.travel_mass = contact.control->mass;
+    motion.travel_velocity = contact.control->velocity;
+    motion.travel_weight = contact.control->mass * motion.gravity.dot(contact.control->along);
+  }
+  if (dynamics.contact_mass == ContactMass::moved_inwards && !scene.contacts.empty()) {
+    motion.massless.assign(mesh.X.size(), 0);  // those of the part are set where it is known
+    refuse_without_mass(scene, mesh, where("dynamics"), errors);
+  }
+  refuse_out_of_section(dynamics, mesh, where, errors);
+  if (dynamics.scheme == Scheme::energy_momentum) {
+    for (const Material& material : scene.materials) {
+      if (!is_viscous(material)) continue;
+      errors.push_back({where("dynamics.scheme"), "dynamics.scheme",
+                        "energy_momentum, and a material is viscous", "generalised_alpha",
+                        "viscous branches know the end of a step, not its middle"});
+      break;
+    }
+  }
+  scene.motion = std::move(motion);
+  scene.motion_step = dynamics.step;
+  if (dynamics.error) scene.motion_error = 0.01 * percent_of(*dynamics.error).value_or(0.1);
+}
+
+// A spin is an axial vector: a mirror keeps what is along its normal.
+bool keeps_motion(const Vec3& signs, const InertiaOptions& motion) {
+  const auto same = [&](const Vec3& v) {
+    return signs.cwiseProduct(v) == v;
+  };
+  const double det = signs.prod();
+  return same(motion.gravity) && same(motion.velocity) &&
+         det * signs.cwiseProduct(motion.spin) == motion.spin;
+}
+
+MotionState recorded_motion(
+    const StepRecord& record,
+    const std::function<VecX(const std::vector<Vec3>& field, bool shared)>& of_nodes) {
+  MotionState motion;
+  motion.v = of_nodes(record.point_fields.at(velocity_field), false);
+  motion.a = of_nodes(record.point_fields.at(acceleration_field), false);
+  motion.b = of_nodes(record.point_fields.at(carried_field), false);
+  motion.reactions = of_nodes(record.reaction, true);
+  const auto number = [&](const char* name) {
+    return value_or(record.scalars, name, 0);
+  };
+  motion.travel_v = number("indenter_velocity");
+  motion.travel_a = number("indenter_acceleration");
+  motion.travel_b = number("indenter_carried");
+  motion.kinetic = number("kinetic_energy");
+  motion.stored = number("energy");
+  motion.total = number("mechanical_energy");
+  motion.damped = number("damped_energy");
+  motion.balance = number("energy_balance");
+  return motion;
+}
+
+}  // namespace langer

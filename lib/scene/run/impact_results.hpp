@@ -1,0 +1,34 @@
+// What an impact leaves behind: contact time, greatest force and restitution, from the states of a
+// path.
+//   contact_time   from the first touch to the last parting: between the states before and after,
+//                  the line through the next two forces is followed to 0
+//   peak_force     greatest force of all indenters on the body
+//   restitution    of an indenter with mass: its speed after the last parting over that at the first
+//                  touch; of a thrown body the same of its momentum along the whole impulse
+// Nothing is said of a path without contact, or that ends in contact (but its peak force).
+#pragma once
+
+#include <vector>
+
+#include "results/store/provenance.hpp"
+#include "scene/run/run.hpp"
+
+namespace langer {
+
+class ImpactResults {
+ public:
+  explicit ImpactResults(const Scene& scene);
+  void add(const StepRecord& step);  // in the order of the path
+  std::vector<Summary> summary() const;
+
+ private:
+  struct State {
+    double time = 0, force = 0, speed = 0;
+    Vec3 momentum = Vec3::Zero();
+  };
+  double restitution(std::size_t first, std::size_t last) const;
+  std::vector<State> states_;
+  bool moves_ = false, free_ = false, knows_start_ = false;
+};
+
+}  // namespace langer

@@ -1,0 +1,69 @@
+#include "scene/run/motion_record.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/model/scene_motion.hpp"
+#include "scene/run/step_record.hpp"
+
+namespace langer {
+
+std::unique_ptr<Inertia> inertia_of(const Reduction& reduction, Assembler& body,
+                                    const LoadPathOptions& path) {
+  const Scene& scene = reduction.scene();
+  if (!scene.motion) return nullptr;
+  InertiaOptions options = *scene.motion;
+  options.seconds = path.seconds.value_or(1);
+  if (!options.massless.empty()) {
+    options.massless.assign(body.mesh().X.size(), 0);
+    for (const RigidContact& contact : scene.contacts) {
+      for (int node : contact.nodes) options.massless[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  auto inertia = std::make_unique<Inertia>(body, std::move(options));
+  body.set_added_term(inertia.get());
+  return inertia;
+}
+
+LoadPathOptions motion_path(const Scene& scene, LoadPathOptions path) {
+  if (!scene.motion) return path;
+  if (scene.motion_step) {
+    path.fixed = std::min(1.0, *scene.motion_step / path.seconds.value_or(1));
+    path.smallest = std::min(path.smallest, path.fixed / 64);
+    return path;
+  }
+  // The first increment is not known; a failed attempt costs less than one that is far too short.
+  if (path.steps) return path;
+  path.first = std::min(path.first, 1e-3);
+  path.smallest = std::min(path.smallest, 1e-7);
+  return path;
+}
+
+void record_motion(const Statics& statics, const Assembler& body, StepRecord& record) {
+  const MotionState& motion = statics.accepted().motion;
+  const auto nodal = [&](const VecX& all) {
+    std::vector<Vec3> out;
+    for (int i = 0; i < body.mesh().n_nodes(); ++i) out.push_back(all.segment<3>(3 * i));
+    hang(body, all, out);
+    return out;
+  };
+  record.point_fields[velocity_field] = nodal(motion.v);
+  record.point_fields[acceleration_field] = nodal(motion.a);
+  record.point_fields[carried_field] = nodal(motion.b);
+  auto& scalars = record.scalars;
+  scalars["energy"] = motion.stored;
+  scalars["kinetic_energy"] = motion.kinetic;
+  scalars["mechanical_energy"] = motion.total;
+  scalars["damped_energy"] = motion.damped;
+  scalars["energy_balance"] = motion.balance;
+  scalars["kinetic_energy_at_start"] = statics.inertia()->at_start_kinetic();
+  const Vec3 momentum = statics.inertia()->momentum(motion);
+  for (int k = 0; k < 3; ++k) scalars[std::string("momentum_") + "xyz"[k]] = momentum[k];
+  if (statics.inertia()->options().travel_mass > 0) {
+    scalars["indenter_velocity"] = motion.travel_v;
+    scalars["indenter_acceleration"] = motion.travel_a;
+    scalars["indenter_carried"] = motion.travel_b;
+  }
+}
+
+}  // namespace langer

@@ -1,0 +1,147 @@
+// Motion without contact: tangents, orders of convergence, conservation.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "dynamics/moving.hpp"
+#include "support/near.hpp"
+
+using namespace langer;
+
+namespace {
+
+Dofs clamped(const Mesh& mesh, const char* set) {
+  std::vector<Prescribed> held;
+  for (int node : mesh.node_sets.at(set)) {
+    for (int k = 0; k < 3; ++k) held.push_back({3 * node + k, 0});
+  }
+  return number_dofs(mesh.n_nodes(), held).dofs;
+}
+
+InertiaOptions of_scheme(Scheme scheme) {
+  InertiaOptions options;
+  options.scheme = scheme;
+  options.density = {1e-9};
+  return options;
+}
+
+// Where the end of a cantilever is that begins to move across.
+Vec3 end_of_beam(InertiaOptions options, int n_steps) {
+  const Mesh mesh = test::block(test::even(0, 4, 4), {0, 1}, {0, 1});
+  options.velocity = Vec3(0, 2000, 300);
+  test::Moving beam(mesh, test::neo_hooke(0.1, 1), clamped(mesh, "x_min"), options, {},
+                    2e-4 / n_steps, n_steps);
+  for (int i = 0; i < n_steps; ++i) beam.step();
+  return beam.statics().accepted().u.segment<3>(3 * mesh.node_sets.at("x_max").front());
+}
+
+double order_of(const InertiaOptions& options) {
+  const Vec3 coarse = end_of_beam(options, 40);
+  const Vec3 middle = end_of_beam(options, 80);
+  const Vec3 fine = end_of_beam(options, 160);
+  return std::log2((coarse - middle).norm() / (middle - fine).norm());
+}
+
+Vec3 angular_momentum(const Mesh& mesh, test::Moving& body) {
+  const VecX Mv = body.inertia().mass().M * body.motion().v;
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < mesh.n_nodes(); ++i) {
+    const Vec3 x = mesh.X[i] + body.statics().accepted().u.segment<3>(3 * i);
+    sum += x.cross(Vec3(Mv.segment<3>(3 * i)));
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the tangent of a body in motion is the derivative of its balance") {
+  Mesh mesh = test::cube(2);
+  test::distort(mesh, 0.05);
+  const Dofs dofs = clamped(mesh, "y_min");
+  for (Scheme scheme : {Scheme::generalised_alpha, Scheme::energy_momentum, Scheme::theta}) {
+    InertiaOptions options = of_scheme(scheme);
+    options.damping_mass = 300;
+    options.damping_stiffness = 1e-4;
+    options.velocity = Vec3(10, -300, 40);
+    options.gravity = Vec3(0, -9810, 0);
+    test::Moving moving(mesh, test::neo_hooke(0.1, 0.5), dofs, options, {}, 1e-4, 4, {},
+                        Formulation::displacement);
+    moving.step();
+    moving.statics().begin(0.5);
+    Assembler& body = moving.body();
+    VecX u = moving.statics().trial();
+    for (int dof : dofs.free) u[dof] += 0.01 * std::sin(3.0 * dof);
+    VecX direction(dofs.n_free());
+    VecX all = VecX::Zero(dofs.n);
+    for (int row = 0; row < dofs.n_free(); ++row) {
+      direction[row] = std::cos(2.0 * row);
+      all[dofs.free[row]] = direction[row];
+    }
+    body.pressures_from(u);
+    REQUIRE(body.assemble(u, true));
+    const VecX product = body.K_times(direction);
+    const double h = 1e-5;
+    REQUIRE(body.assemble(u + h * all, false));
+    const VecX after = body.f_int();
+    REQUIRE(body.assemble(u - h * all, false));
+    const VecX change = (after - body.f_int()) / (2 * h);
+    VecX difference(dofs.n_free());
+    for (int row = 0; row < dofs.n_free(); ++row) {
+      difference[row] = change[dofs.free[row]] - product[row];
+    }
+    CHECK(difference.norm() < 1e-7 * product.norm());
+  }
+}
+
+TEST_CASE(
+    "generalised alpha and energy momentum are of second order, theta above a half of first") {
+  CHECK(order_of(of_scheme(Scheme::generalised_alpha)) == near(2, 0.1));
+  CHECK(order_of(of_scheme(Scheme::energy_momentum)) == near(2, 0.1));
+  InertiaOptions theta = of_scheme(Scheme::theta);
+  theta.theta = 0.6;
+  theta.xi = 0.6;
+  CHECK(order_of(theta) == near(1, 0.2));
+  theta.theta = 0.5;
+  theta.xi = 0.5;
+  CHECK(order_of(theta) == near(2, 0.1));
+}
+
+TEST_CASE("a spinning, stretched block in free flight keeps its energy and its angular momentum") {
+  Mesh mesh = test::block({0, 1, 2}, {0, 1, 1.5}, {0, 1});
+  InertiaOptions options = of_scheme(Scheme::energy_momentum);
+  options.spin = Vec3(300, 800, 500);  // fast enough to stretch it
+  options.spin_centre = Vec3(1, 0.75, 0.5);
+  options.velocity = Vec3(50, -20, 10);
+  const int n = 150;
+  test::Moving block(mesh, test::neo_hooke(0.1, 0.5), number_dofs(mesh.n_nodes(), {}).dofs, options,
+                     {}, 2e-5, n);
+  block.step(1e-13);
+  const double energy = block.energy();
+  const Vec3 spin = angular_momentum(mesh, block);
+  double stored = 0;
+  for (int i = 1; i < n; ++i) {
+    block.step(1e-13);
+    stored = std::max(stored, block.motion().stored);
+  }
+  CHECK(stored > 0.05 * energy);  // it does stretch
+  CHECK(block.energy() == near(energy, 1e-10));
+  CHECK((angular_momentum(mesh, block) - spin).norm() < 1e-10 * spin.norm());
+  CHECK(std::abs(block.motion().balance) < 1e-10 * energy);
+}
+
+TEST_CASE("a body falls by g t^2 / 2, whatever the scheme") {
+  const Mesh mesh = test::cube(1);
+  for (Scheme scheme : {Scheme::generalised_alpha, Scheme::energy_momentum, Scheme::theta}) {
+    InertiaOptions options = of_scheme(scheme);
+    options.gravity = Vec3(0, -9810, 0);
+    options.velocity = Vec3(100, 0, 0);
+    test::Moving block(mesh, test::neo_hooke(0.1, 0.5), number_dofs(mesh.n_nodes(), {}).dofs,
+                       options, {}, 1e-3, 10);
+    for (int i = 0; i < 10; ++i) block.step();
+    const VecX& u = block.statics().accepted().u;
+    CHECK(u[0] == near(1, 1e-9));
+    CHECK(u[1] == near(-0.5 * 9810 * 1e-4, 1e-9));
+    CHECK(std::abs(block.motion().balance) < 1e-9 * block.energy());
+  }
+}
