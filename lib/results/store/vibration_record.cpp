@@ -11,7 +11,7 @@ namespace langer {
 
 namespace {
 
-std::vector<double> flat(const std::vector<std::vector<Vec3>>& fields) {
+std::vector<double> components_of_all(const std::vector<std::vector<Vec3>>& fields) {
   std::vector<double> values;
   for (const std::vector<Vec3>& field : fields) {
     for (const Vec3& u : field) values.insert(values.end(), u.begin(), u.end());
@@ -34,7 +34,7 @@ void write_modes(const h5::Group& group, const ModesRecord& modes) {
   group.write<std::int64_t>("breaks_symmetry", {n}, breaks, "-");
   std::size_t nodes = 0;
   if (n > 0) nodes = modes.shape.front().size();
-  group.write<double>("shape", {n, nodes, 3}, flat(modes.shape), "-");
+  group.write<double>("shape", {n, nodes, 3}, components_of_all(modes.shape), "-");
 }
 
 ModesRecord read_modes(const h5::Group& group, std::size_t n_nodes) {
