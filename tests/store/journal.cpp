@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "results/store/journal.hpp"
+#include "results/store/step_journal.hpp"
 #include "solution_example.hpp"
 
 using namespace langer;
@@ -173,4 +174,33 @@ TEST_CASE("steps that another version of langer left are made anew") {
   other.back() = other.back() == '1' ? '2' : '1';
   CHECK(kept_of(code_version()) == kept);
   CHECK(kept_of(other) == 0);
+}
+
+TEST_CASE("a follower reads each step as it is written, the last ones, and a new beginning") {
+  const std::string path = example::folder("follower") + "/solution.h5";
+  StepFollower follower(path);
+  bool anew = false;
+  CHECK(follower.more(anew).empty());
+  CHECK(!anew);
+  {
+    SolutionWriter writer(path, header(true));
+    writer.append(step(0, true));
+    const std::vector<StepRecord> first = follower.more(anew);
+    REQUIRE(first.size() == 1);
+    CHECK(anew);
+    CHECK(example::same(first[0], step(0, true)));
+    CHECK(follower.more(anew).empty());
+    CHECK(!anew);
+    for (int i = 1; i < 4; ++i) writer.append(step(i, true));
+    writer.finish();  // removes the journal
+  }
+  const std::vector<StepRecord> last = follower.more(anew);
+  CHECK(!anew);
+  REQUIRE(last.size() == 3);
+  CHECK(example::same(last[2], step(3, true)));
+  CHECK(follower.more(anew).empty());
+  SolutionWriter again(path, header(false));
+  again.append(step(0, false));
+  CHECK(follower.more(anew).size() == 1);
+  CHECK(anew);
 }
