@@ -24,7 +24,7 @@ packages := g++ cmake ninja-build git libeigen3-dev libfmt-dev libcli11-dev liby
   libsuitesparse-dev libsundials-dev libpetsc-real-dev libmetis-dev libopenblas-pthread-dev libnlopt-cxx-dev libboost-dev libmuparser-dev pkg-config doctest-dev nlohmann-json3-dev gnuplot-nox libjs-three libcpp-httplib-dev
 
 .NOTPARALLEL:
-.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle wheel test-package test-bundle map schemas site clean help
+.PHONY: all deps configure build planned plan work run explain times test test-fast slow-tests clang format tidy coverage soak relations fuzz mutants mutants-listed reliability bench bench-features bench-forecasts bench-wide bench-pipeline bench-candidates bench-peers extremes ladder work-precision trade accuracy accuracy-elsewhere accuracy-random contact-discretisations adaptive estimates paper gallery packaged install deb bundle wheel test-package test-bundle map schemas site clean help
 all: run
 
 # As root, or with a sudo that asks nothing, missing packages are installed; otherwise the line to type is printed.
@@ -145,6 +145,15 @@ bench: configure
 	@if command -v valgrind > /dev/null; then $(MAKE) --no-print-directory bench-features; \
 	else echo "not counted: what each feature costs; make bench-features installs valgrind for that"; fi
 
+# CPU seconds of each stage of the pipeline; OTHER=<folder>: programs of another build beside it
+bench-pipeline: build
+	@tests/bench/pipeline.py $(PIPELINE) $(OTHER) $(build)/bin
+
+# what candidates cost that the indenter does not reach
+bench-candidates: configure
+	@cmake --build $(build) --parallel $(JOBS) --target langer-bench
+	@$(build)/bin/langer-bench candidates
+
 # programs, man pages, completion, configs; PREFIX and DESTDIR as usual. LANGER_NATIVE is off: the programs may go to another machine
 PREFIX ?= /usr/local
 package := build-package
@@ -225,6 +234,8 @@ help:
 	@echo "make bench                    time the solver"
 	@echo "make bench-features           what each feature costs in instructions (installs valgrind), docs/feature_cost.md from it; part of make bench"
 	@echo "make bench-forecasts          what --dry-run forecasts and the time taken, docs/solver_cost.md from it"
+	@echo "make bench-pipeline           CPU seconds of each stage of the pipeline; OTHER=<folder of programs>: beside another build"
+	@echo "make bench-candidates         the same indentation with sets of candidates of growing radius"
 	@echo "make bench-wide               contact over 100 to 5 041 candidates, docs/solver_cost.md from it"
 	@echo "make bench-peers              the same scene by CalculiX, GetFEM, FEniCSx (installs them): error against CPU seconds, docs/peers.md"
 	@echo "make paper                    every figure and table of the paper, beside the published ones in docs/paper.md"
