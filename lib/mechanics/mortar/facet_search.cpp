@@ -1,3 +1,5 @@
+// headers of Boost include others that it has given new names
+#define BOOST_ALLOW_DEPRECATED_HEADERS
 #include "mechanics/mortar/facet_search.hpp"
 
 #include <algorithm>
