@@ -85,9 +85,9 @@ class Inertia : public AddedTerm {
 
   // The displacements at the end, of the unknown of the scheme.
   VecX end_of(const VecX& u) const;
-  // energy_momentum: the force that makes the work of internal forces f (3 n) at the middle that of
-  // the change of energy.
-  VecX projected_force(const VecX& u_m, const VecX& f, double energy_change) const;
+  // energy_momentum: the direction of the force that makes the work of the internal forces that of
+  // the change of energy, M (u1 - u0 - rigid part); (3 n). Zero for a rigid motion.
+  VecX projection(const VecX& u_m) const;
 
   // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
   MotionState end(const VecX& u1, double travel1, const VecX& net) const;

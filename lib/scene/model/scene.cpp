@@ -326,10 +326,10 @@ void check_only_one(const Scene& scene, const std::string& key, const Find& wher
                     std::vector<Error>& errors) {
   for (const RigidContact& other : scene.contacts)
     if (other.control)
-      errors.push_back({where(key), key,
-                        fmt::format("found, and the travel of \"{}\" is unknown as well", other.name),
-                        "one indenter under force control or with a mass",
-                        "others may follow `motion`"});
+      errors.push_back(
+          {where(key), key,
+           fmt::format("found, and the travel of \"{}\" is unknown as well", other.name),
+           "one indenter under force control or with a mass", "others may follow `motion`"});
 }
 
 // How far a force pushes is not known before: candidates are named, and what is across its
