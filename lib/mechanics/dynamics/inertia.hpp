@@ -14,7 +14,7 @@
 //   energy_momentum    Simo, Tarnow 1992: balance in the middle of the increment, u_m = (u0 + u1)/2,
 //                      which is its unknown; a force along M (u1 - u0 - rigid part) makes the work
 //                      of the internal forces exactly the change of energy [Gonzalez 1996, for the
-//                      whole body]. Keeps energy and both momenta for any step
+//                      whole body]. Keeps the energy of a body that is held
 //   theta              Feng, Joli, Cros, Magnain 2005: impulses in the place of accelerations,
 //                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
 //                      F without R, which is the mean reaction of the increment
