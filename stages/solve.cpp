@@ -71,7 +71,8 @@ void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
 // not copied: a number of one scene may be a different number of its image.
 std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
   const Job<SolveConfig>& job = input.job;
-  if (!job.has("mirror") || job.dry_run || job.config.dynamics || !job.config.sensitivity.empty()) return std::nullopt;
+  if (!job.has("mirror") || job.dry_run || job.config.dynamics || !job.config.sensitivity.empty())
+    return std::nullopt;
   SolveConfig config = job.config;
   if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
   const MirrorTask task{config,          input.material,      job.where, job.identity,

@@ -25,7 +25,7 @@ struct ContactState {
   std::vector<Vec3> start_moves =
       {};  // by candidate: what its slip is measured from, per travel; empty without friction
   const Bonds* bonds = nullptr;  // of indenters that adhere
-  double force_falls = 0;  // of an indenter with mass: what `force` loses per travel [N/mm]
+  double force_falls = 0;        // of an indenter with mass: what `force` loses per travel [N/mm]
 };
 
 }  // namespace langer

@@ -24,9 +24,9 @@ struct Scene {
       materials;            // one for each body of the mesh; families with c1 = 0 keep their place
   Directions directions{};  // of the fibres, in every cell
   Dofs dofs;
-  std::vector<SurfaceLoad> loads;      // empty: no code of loads runs
-  std::vector<RigidContact> contacts;  // empty: no contact code runs
-  std::vector<TurnedSet> turned;       // their nodes are prescribed in dofs
+  std::vector<SurfaceLoad> loads;        // empty: no code of loads runs
+  std::vector<RigidContact> contacts;    // empty: no contact code runs
+  std::vector<TurnedSet> turned;         // their nodes are prescribed in dofs
   std::optional<InertiaOptions> motion;  // none: equilibrium
   std::optional<double> motion_step;     // length of all increments [s]; none: by motion_error
   double motion_error = 1e-3;            // that an increment may make

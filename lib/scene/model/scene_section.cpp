@@ -91,10 +91,10 @@ std::vector<Error> section_errors(const SolveConfig& config, const Mesh& mesh, c
              "a block is needed for others");
     if (const auto& free = contact.free;
         free && (free->along[2] != 0 || (is_round && free->along[0] != 0)))
-      refuse(key + ".free.along",
-             fmt::format("found [{:g}, {:g}, {:g}]", free->along[0], free->along[1],
-                         free->along[2]),
-             along_axis, "a block is needed for others");
+      refuse(
+          key + ".free.along",
+          fmt::format("found [{:g}, {:g}, {:g}]", free->along[0], free->along[1], free->along[2]),
+          along_axis, "a block is needed for others");
     if (const auto& control = contact.control;
         control && (control->along[2] != 0 || (is_round && control->along[0] != 0)))
       refuse(key + ".control.along",

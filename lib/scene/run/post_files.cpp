@@ -1,5 +1,5 @@
-#include "scene/model/scene_motion.hpp"
 #include "scene/run/post_files.hpp"
+#include "scene/model/scene_motion.hpp"
 
 #include <algorithm>
 #include <limits>

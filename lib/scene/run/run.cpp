@@ -161,8 +161,8 @@ RunEnd Run::follow(const RunListener& listener) {
     }
     if (report.converged() && body.viscous()) report.time_error = statics.time_error();
     if (report.converged() && inertia && !scene.motion_step) {
-      report.time_error = std::max(
-          report.time_error, path.time_error / scene.motion_error * statics.motion_error());
+      report.time_error = std::max(report.time_error,
+                                   path.time_error / scene.motion_error * statics.motion_error());
     }
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;

@@ -51,8 +51,8 @@ class Run {
   const Mesh mesh;
   const Scene scene;  // of the whole body
   const Reduction reduction;
-  std::string serial_reason;  // where it is not divided among ranks that are there
-  Assembler body;             // balance of the part
+  std::string serial_reason;         // where it is not divided among ranks that are there
+  Assembler body;                    // balance of the part
   std::unique_ptr<Inertia> inertia;  // of a body in motion, else none
   Statics statics;
   LoadPathOptions path;
