@@ -289,11 +289,30 @@ void Assembler::extrapolate_pressures(const VecX& u_before, double s) {
   pressures_.extrapolate(now, s);
 }
 
-double Assembler::energy_at(const VecX& u) {
-  AddedTerm* const added = std::exchange(added_, nullptr);
-  const double W = forces_of(body_.materials(), body_.directions(), u).W;
-  added_ = added;
-  return W;
+Assembler::Forces Assembler::elastic_at(const VecX& u) const {
+  PressureField field = pressures_;
+  PacketElement out(body_.n_nodes(), body_.n_pressures());
+  Forces found;
+  // A first pass finds the dilatations, on which pressures and bubble moduli depend.
+  for (int pass = 0; pass < 2; ++pass) {
+    found = {VecX::Zero(body_.dofs().n), 0};
+    for (std::size_t b = 0; b < packets_.blocks().size(); ++b) {
+      packets_.evaluate(b, u, field, viscous_, false, out);
+      const ElementPackets::Block& block = packets_.blocks()[b];
+      for (int l = 0; l < block.n; ++l) {
+        const int e = block.cells[l];
+        found.W += out.W[l];
+        field.store_dilatations(e, out, l);
+        const auto nodes = body_.nodes(e);
+        for (int a = 0; a < body_.n_nodes(); ++a) {
+          const Vec3 force(out.f[3 * a][l], out.f[3 * a + 1][l], out.f[3 * a + 2][l]);
+          body_.add_force(found.f, nodes[a], e, force);
+        }
+      }
+    }
+    field.follow_dilatations();
+  }
+  return found;
 }
 
 void Assembler::set_materials(std::vector<Material> materials, Directions directions) {

@@ -61,8 +61,13 @@ class Assembler {
   const AddedTerm* added_term() const { return added_; }
   // For forces that no element and no added term knows; until the next assembly.
   void add_to_forces(const VecX& f) { f_ += f; }
-  // The energy of the body at u, with the pressures that belong to it; nothing else changes.
-  double energy_at(const VecX& u);
+  struct Forces {
+    VecX f;        // (3 n) f_int [N]
+    double W = 0;  // [N mm]
+  };
+  // Energy and forces of the elements at u, with the pressures that belong to it. Not on several
+  // ranks.
+  Forces elastic_at(const VecX& u) const;
 
   // Forces and, if requested, the tangent at u. False if an element is turned inside out, or a
   // force is not finite. du_prescribed: the displacement of prescribed unknowns that is still to be
@@ -100,10 +105,6 @@ class Assembler {
   void set_materials(std::vector<Material> materials, Directions directions);
   // Forces of such materials at u, with the pressures that belong to them. The body keeps its own
   // materials and forces.
-  struct Forces {
-    VecX f;        // (3 n) f_int [N]
-    double W = 0;  // [N mm]
-  };
   Forces forces_of(std::vector<Material> materials, Directions directions, const VecX& u);
 
   // Derivatives of f_int - f_ext at the u assembled last, if K() was made with the pressures of

@@ -260,15 +260,13 @@ VecX Inertia::rigid_part(const VecX& x, const VecX& w) const {
   return fields * A.completeOrthogonalDecomposition().solve(M_fields.transpose() * w);
 }
 
-VecX Inertia::projected_force(const VecX& u_m, const VecX& f, double energy_change) const {
+VecX Inertia::projection(const VecX& u_m) const {
   const VecX du = 2 * (u_m - u0_);
   VecX x = u_m;
   for (int i = 0; i < body_.mesh().n_nodes(); ++i) x.segment<3>(3 * i) += body_.mesh().X[i];
   const VecX d = mass_.M * (du - rigid_part(x, du));
-  const double work = d.dot(du);
-  const double whole = du.dot(mass_.M * du);
-  if (!(work > 1e-20 * whole)) return VecX::Zero(du.size());  // moves as a rigid body
-  return (energy_change - f.dot(du)) / work * d;
+  if (!(d.dot(du) > 1e-20 * du.dot(mass_.M * du))) return VecX::Zero(du.size());
+  return d;
 }
 
 MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const {

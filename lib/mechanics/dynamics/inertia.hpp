@@ -14,7 +14,7 @@
 //   energy_momentum    Simo, Tarnow 1992: balance in the middle of the increment, u_m = (u0 + u1)/2,
 //                      which is its unknown; a force along M (u1 - u0 - rigid part) makes the work
 //                      of the internal forces exactly the change of energy [Gonzalez 1996, for the
-//                      whole body]. Keeps energy and both momenta for any step
+//                      whole body]. Keeps the energy of a body that is held
 //   theta              Feng, Joli, Cros, Magnain 2005: impulses in the place of accelerations,
 //                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
 //                      F without R, which is the mean reaction of the increment
@@ -85,9 +85,9 @@ class Inertia : public AddedTerm {
 
   // The displacements at the end, of the unknown of the scheme.
   VecX end_of(const VecX& u) const;
-  // energy_momentum: the force that makes the work of internal forces f (3 n) at the middle that of
-  // the change of energy.
-  VecX projected_force(const VecX& u_m, const VecX& f, double energy_change) const;
+  // energy_momentum: the direction of the force that makes the work of the internal forces that of
+  // the change of energy, M (u1 - u0 - rigid part); (3 n). Zero for a rigid motion.
+  VecX projection(const VecX& u_m) const;
 
   // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
   MotionState end(const VecX& u1, double travel1, const VecX& net) const;

@@ -252,7 +252,11 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   VecX move;
   if (contacts_.empty() && bodies_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = solve_with_follower_loads(rhs);
+    if (options_.inertia && options_.inertia->conserves()) {
+      move = solve_middle(rhs);
+    } else {
+      move = solve_with_follower_loads(rhs);
+    }
     if (bordered()) solve_border(move);
   } else {
     LinearSolver::Half half;

@@ -73,7 +73,8 @@ Problem Statics::problem() {
   p.correction = [this] {
     return correction();
   };
-  if (equilibrium_.formulation() != Formulation::displacement && !iterative()) {
+  const bool conserves = options_.inertia && options_.inertia->conserves();
+  if (equilibrium_.formulation() != Formulation::displacement && !iterative() && !conserves) {
     p.correction_again = [this] {
       return correction_again();
     };

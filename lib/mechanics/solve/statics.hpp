@@ -217,7 +217,14 @@ class Statics {
   std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
   void begin_motion(double seconds);
   void accept_motion();
-  void balance_middle(const VecX& u);  // energy_momentum: the force that keeps the energy
+  // energy_momentum: the force s d that keeps the energy, and what its derivative needs
+  struct MiddleForce {
+    VecX d, change_of_force;  // (3 n); of internal forces from the middle to the end [N]
+    double work = 0;          // d . du; 0: no such force
+    double size = 0;          // s
+  };
+  void balance_middle(const VecX& u);
+  VecX solve_middle(const VecX& rhs);
   double work_from_outside(const VecX& du, const VecX& f_ext, const VecX& reactions,
                            const Reactions& r) const;
   VecX trial_reactions() const;
@@ -248,6 +255,7 @@ class Statics {
   double extrapolated_ = 0;  // of the movement of the last increment, with which this one was begun
   VecX expected_;            // u that it was begun with, where the start of slip follows the travel
   int controlled_ = -1;      // contact under force control
+  MiddleForce middle_;       // of the trial
   VecX f_ext_start_;         // of a body in motion: loads where the increment began (3 n) [N]
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found

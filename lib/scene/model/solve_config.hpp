@@ -622,6 +622,10 @@ struct SolveConfig {
     const auto unlike = [&](const std::string& key, const std::string& hint) {
       found.push_back({key, "found with scheme: energy_momentum", "another scheme", hint});
     };
+    if (supports.empty())
+      unlike(
+          "dynamics.scheme",
+          "of a body in free flight Newton's method does not find the force that keeps its energy");
     for (const auto& [name, contact] : contacts)
       unlike("contacts." + name,
              "its balance is that of the middle of a step, and contact at its end");
