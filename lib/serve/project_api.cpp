@@ -42,7 +42,7 @@ constexpr double longest_scene = 300;
 Json as_json(const Json& j) { return j; }
 
 // Ends the request with a message for the page.
-[[noreturn]] void refuse(const std::string& what, const std::string& found) {
+[[noreturn]] void refuse_request(const std::string& what, const std::string& found) {
   throw Failure(Exit::input, Error{{what}, "", found, "", ""});
 }
 
@@ -62,9 +62,9 @@ std::string asked(const Request& request, const std::string& key) {
 
 // JSON is YAML, so an order is read by the reader of YAML.
 Tree order_of(const Request& request) {
-  if (request.body.size() > largest_order) refuse("the request", "is too large");
+  if (request.body.size() > largest_order) refuse_request("the request", "is too large");
   Tree tree = parse_yaml_as_written(request.body, "the request");
-  if (tree.kind != Tree::Kind::map) refuse("the request", "is no JSON object");
+  if (tree.kind != Tree::Kind::map) refuse_request("the request", "is no JSON object");
   return tree;
 }
 
@@ -72,7 +72,7 @@ Tree order_of(const Request& request) {
 std::string text_of(const Tree& order, const std::string& key) {
   const Tree* value = order.find(key);
   if (!value || value->kind != Tree::Kind::scalar)
-    refuse("the request", "has no text \"" + key + "\"");
+    refuse_request("the request", "has no text \"" + key + "\"");
   return value->scalar;
 }
 std::string text_or_empty(const Tree& order, const std::string& key) {
@@ -83,8 +83,9 @@ std::string text_or_empty(const Tree& order, const std::string& key) {
 
 // The folder of a project, "" or one name.
 std::string checked_project(const std::string& project) {
-  if (project.find('/') != std::string::npos) refuse(project, "is no project of this folder");
-  if (const std::string why = refused_path(project); !why.empty()) refuse(project, why);
+  if (project.find('/') != std::string::npos)
+    refuse_request(project, "is no project of this folder");
+  if (const std::string why = refused_path(project); !why.empty()) refuse_request(project, why);
   return project;
 }
 
@@ -244,7 +245,7 @@ std::string ProjectApi::state(const std::string& project) const {
 // The kind of a file that is wrong follows from its schema line all the same.
 std::string ProjectApi::file(const std::string& project, const std::string& name) const {
   const std::string path = below(project, name);
-  if (!is_yaml(name)) refuse(name, "is no YAML file");
+  if (!is_yaml(name)) refuse_request(name, "is no YAML file");
   const std::string text = folder_.read(path, largest_yaml);
   Json tree;
   std::string kind, wrong;
@@ -265,7 +266,7 @@ std::string ProjectApi::file(const std::string& project, const std::string& name
 void ProjectApi::edit(const Tree& order) {
   const std::string name = text_of(order, "file");
   const std::string path = below(checked_project(text_or_empty(order, "project")), name);
-  if (!is_yaml(name)) refuse(name, "is no YAML file");
+  if (!is_yaml(name)) refuse_request(name, "is no YAML file");
   std::optional<std::string> value;
   if (const Tree* given = order.find("value"); given && given->kind == Tree::Kind::scalar)
     value = given->scalar;
@@ -280,8 +281,8 @@ void ProjectApi::write(const Tree& order) {
   const std::string name = text_of(order, "file");
   const std::string path = below(checked_project(text_or_empty(order, "project")), name);
   const std::string text = text_of(order, "text");
-  if (!is_yaml(name)) refuse(name, "is no YAML file");
-  if (text.size() > largest_yaml) refuse(name, "would be too large");
+  if (!is_yaml(name)) refuse_request(name, "is no YAML file");
+  if (text.size() > largest_yaml) refuse_request(name, "would be too large");
   parse_yaml_as_written(text, name);
   const std::lock_guard lock(writes_);
   folder_.replace(path, text);
@@ -291,7 +292,7 @@ void ProjectApi::write(const Tree& order) {
 void ProjectApi::make_new(const Tree& order) {
   const std::string starter = text_of(order, "starter");
   const std::string name = text_of(order, "name");
-  if (!is_name(name)) refuse(name, "a name has letters, digits, _, + and - only");
+  if (!is_name(name)) refuse_request(name, "a name has letters, digits, _, + and - only");
   const std::string folder = folder_.absolute(checked_project(name));
   const std::lock_guard lock(writes_);
   write_starter(starter, folder);
@@ -306,9 +307,10 @@ void ProjectApi::upload(const Request& request) {
   const std::vector<std::string> known = {".csv", ".txt", ".tsv", ".stl",  ".step",
                                           ".stp", ".inp", ".msh", ".yaml", ".h5"};
   if (name.find('/') != std::string::npos || stem.find('.') != std::string::npos || !is_name(stem))
-    refuse(name, "a file name has letters, digits, _, + and - only");
+    refuse_request(name, "a file name has letters, digits, _, + and - only");
   if (std::ranges::find(known, ending) == known.end())
-    refuse(name, "found the ending \"" + ending + "\"; expected one of " + list_words(known));
+    refuse_request(name,
+                   "found the ending \"" + ending + "\"; expected one of " + list_words(known));
   const std::lock_guard lock(writes_);
   folder_.create(below(project, name), request.body);
 }

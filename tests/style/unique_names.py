@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
 
-FUNCTION = re.compile(r"^(?:template <.*>\n)?(?:[\w:][\w:<>,&*\[\] ]*?[ &*])(\w+)\(((?:[^()]|\([^()]*\))*)\)[^;{]*\{", re.M)
+FUNCTION = re.compile(r"^(?:template <.*>\n)?(?:\[\[\w+\]\] )?(?:[\w:][\w:<>,&*\[\] ]*?[ &*])(\w+)\(((?:[^()]|\([^()]*\))*)\)[^;{]*\{", re.M)
 CONSTANT = re.compile(r"^(?:static |inline )?(?:constexpr|const) [\w:<>,\* ]+?[ &*](\w+)(?:\[\w*\])? ?[={]", re.M)
 TYPE = re.compile(r"^(?:struct|class|enum class|enum) (\w+)", re.M)  # an alias may be repeated
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.M | re.S)

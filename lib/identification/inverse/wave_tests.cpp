@@ -21,8 +21,8 @@ namespace {
 constexpr double degrees = std::numbers::pi / 180;
 constexpr double mm_per_m = 1000;
 
-[[noreturn]] void refuse(const Place& place, const std::string& key, std::string found,
-                         std::string expected, std::string hint = "") {
+[[noreturn]] void refuse_wave(const Place& place, const std::string& key, std::string found,
+                              std::string expected, std::string hint = "") {
   throw Failure(Exit::input,
                 Error{place, key, std::move(found), std::move(expected), std::move(hint)});
 }
@@ -39,8 +39,8 @@ std::size_t column_called(const CsvTable& table, const std::string& name, const 
   if (const auto found = find_column(table, name)) return *found;
   std::string all;
   for (const CsvCell& cell : table.header.cells) append(all, ", ", cell.text);
-  refuse({table.name, table.header.line, 1}, key, "no column \"" + name + "\"", "one of " + all,
-         "columns: {angle: ..., speed: ...} names them");
+  refuse_wave({table.name, table.header.line, 1}, key, "no column \"" + name + "\"",
+              "one of " + all, "columns: {angle: ..., speed: ...} names them");
 }
 
 double number_at(const CsvTable& table, const CsvRow& row, std::size_t column,
@@ -48,7 +48,8 @@ double number_at(const CsvTable& table, const CsvRow& row, std::size_t column,
   const CsvCell& cell = row.cells[column];
   const auto number = table.number(cell);
   if (!number || !std::isfinite(*number)) {
-    refuse({table.name, row.line, cell.column}, key, "found \"" + cell.text + "\"", "a number");
+    refuse_wave({table.name, row.line, cell.column}, key, "found \"" + cell.text + "\"",
+                "a number");
   }
   return *number;
 }
@@ -57,8 +58,8 @@ double positive_at(const CsvTable& table, const CsvRow& row, std::size_t column,
                    const std::string& key, const char* unit) {
   const double number = number_at(table, row, column, key);
   if (!(number > 0)) {
-    refuse({table.name, row.line, row.cells[column].column}, key, "found " + number_text(number),
-           std::string("a number > 0 in ") + unit);
+    refuse_wave({table.name, row.line, row.cells[column].column}, key,
+                "found " + number_text(number), std::string("a number > 0 in ") + unit);
   }
   return number;
 }
@@ -138,8 +139,8 @@ WaveTests::WaveTest WaveTests::read(std::size_t item, const Where& where) const 
     }
   }
   if (test.speed.empty()) {
-    refuse({table.name, table.header.line, 1}, "file", "no rows", "a row of numbers at least",
-           data.where.empty() ? "" : "see `where`");
+    refuse_wave({table.name, table.header.line, 1}, "file", "no rows", "a row of numbers at least",
+                data.where.empty() ? "" : "see `where`");
   }
   const double largest = *std::ranges::max_element(test.speed);
   test.deviation = data.standard_deviation.value_or(config_.noise() * largest);

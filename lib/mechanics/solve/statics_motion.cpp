@@ -160,7 +160,7 @@ void Statics::accept_motion() {
 
   u_ = u1;
   before_ = std::move(now_);
-  now_ = {t_, u_, r_, travel_, {}, {}, std::move(motion)};
+  now_ = {t_, u_, r_, travel_, {}, {}, {}, std::move(motion)};
   now_.bonds = before_.bonds;
   equilibrium_.load_to(t_);
 }

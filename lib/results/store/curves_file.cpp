@@ -84,13 +84,13 @@ namespace {
 
 // The numbers of an array of rows, one after another.
 template <class To, class From, std::size_t n>
-std::vector<To> flat(const std::vector<std::array<From, n>>& rows) {
+std::vector<To> flat_rows(const std::vector<std::array<From, n>>& rows) {
   std::vector<To> values;
   for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
   return values;
 }
 
-// The inverse of flat(): rows of n numbers.
+// The inverse of flat_rows(): rows of n numbers.
 template <class To, std::size_t n, class From>
 std::vector<std::array<To, n>> rows_of(const std::vector<From>& values) {
   std::vector<std::array<To, n>> rows(values.size() / n);
@@ -103,18 +103,18 @@ void write_map(const h5::Group& group, const SurfaceMap& map) {
   const std::size_t n = map.places.size();
   const std::size_t m = map.facets.size();
   group.write_scalar("t", map.t, "-");
-  group.write<double>("places", {n, 2}, flat<double>(map.places), "mm");
+  group.write<double>("places", {n, 2}, flat_rows<double>(map.places), "mm");
   group.write<double>("values", {n}, map.values, map.unit);
   group.annotate("values", "label", map.label);
-  group.write<std::int64_t>("facets", {m, 4}, flat<std::int64_t>(map.facets));
-  group.write<double>("fibres", {map.fibres.size(), 2}, flat<double>(map.fibres), "-");
+  group.write<std::int64_t>("facets", {m, 4}, flat_rows<std::int64_t>(map.facets));
+  group.write<double>("fibres", {map.fibres.size(), 2}, flat_rows<double>(map.fibres), "-");
   std::string names;
   std::vector<std::array<double, 2>> points;
   for (const auto& [name, at] : map.points) {
     append(names, " ", name);
     points.push_back(at);
   }
-  group.write<double>("points", {points.size(), 2}, flat<double>(points), "mm");
+  group.write<double>("points", {points.size(), 2}, flat_rows<double>(points), "mm");
   group.annotate("points", "names", names);
 }
 
