@@ -85,7 +85,7 @@ TEST_CASE("three meshes that lie on a line by chance do not make a bar that is t
                            .config;
   auto& block = std::get<IndentedBlock>(config.mesh->geometry);
   block.under = {5, 0}, block.edge = 0.175;
-  std::get<Sphere>(config.contacts.at("sphere").rigid).centre = {5, 6.5, 0};
+  std::get<Sphere>(config.contacts.at("sphere").rigid.value()).centre = {5, 6.5, 0};
   const SolvedPath path = solved_path(config, config.material, nowhere);
   const ErrorEstimate force =
       estimate_along(config, config.material, nowhere, path, 1e-9).at_end[0];

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string root = SOURCE_DIR;
+const std::string project_root = SOURCE_DIR;
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -184,8 +184,8 @@ void run(const fs::path& path, const Check& check, Tally& tally) {
     for (const Mutation& m : mutations(spot, text)) {
       if (tally.found++ % every) continue;
       ++tally.mutations;
-      const std::string name = fmt::format("{}:{}: {} {}", fs::relative(file, root).string(),
-                                           spot.line, spot.path, m.what);
+      const std::string name = fmt::format(
+          "{}:{}: {} {}", fs::relative(file, project_root).string(), spot.line, spot.path, m.what);
       const auto start = std::chrono::steady_clock::now();
       bool refused = false, here = false, about = false, named = true;
       std::string said;
@@ -232,7 +232,7 @@ void report(const std::string& what, const Tally& tally) {
 
 std::vector<fs::path> yaml_files(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(root) / folder))
+  for (const auto& entry : fs::directory_iterator(fs::path(project_root) / folder))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -300,11 +300,12 @@ TEST_CASE("mutations of the shipped configs of solve with the scene composed") {
   for (const char* name :
        {"smoke", "cube_1_8", "scratch", "suction", "twist", "prestretch", "indentation_coarse"}) {
     const auto loaded =
-        read_config<MeshConfig>(load_yaml(root + "/configs/mesh/" + name + ".yaml"));
+        read_config<MeshConfig>(load_yaml(project_root + "/configs/mesh/" + name + ".yaml"));
     shipped.push_back(coarse_mesh(loaded.config, loaded.where));
   }
   const Material material =
-      read_config<Material>(load_yaml(root + "/configs/material/abdomen_hgo_yeoh.yaml")).config;
+      read_config<Material>(load_yaml(project_root + "/configs/material/abdomen_hgo_yeoh.yaml"))
+          .config;
   Tally tally;
   int composed = 0;
   for (const fs::path& path : yaml_files("configs/solve")) {
@@ -340,7 +341,7 @@ TEST_CASE("mutations of the shipped configs of solve with the scene composed") {
 TEST_CASE("mutations of the shipped pipelines expanded with the configs of their steps") {
   std::map<std::string, Tree> known;
   const auto read = [&](const std::string& path) {
-    const fs::path from_root = fs::path(root) / path;
+    const fs::path from_root = fs::path(project_root) / path;
     const auto found = known.find(from_root.string());
     if (found != known.end()) return found->second;
     return known[from_root.string()] = load_yaml(from_root.string());
