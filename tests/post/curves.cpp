@@ -56,15 +56,38 @@ struct Sample {
                    {"viscous_work", 0.3},        {"adhesion_stored", 0.2},
                    {"adhesion_dissipated", 0.1}, {"energy_released", 0.05},
                    {"bonded_area", 1.5},         {"contact_area", 2.5},
-                   {"contact_radius", 0.9},      {"contact_pressure_max", 0.04}};
+                   {"contact_radius", 0.9},      {"contact_pressure_max", 0.04},
+                   {"load_factor", 0.7},         {"load_pressure", 0.02},
+                   {"pumped_volume", 4},         {"kinetic_energy", 0.6},
+                   {"energy_balance", -0.01}};
+    for (int i = 0; i < mesh.n_nodes(); ++i) {
+      s.velocity.push_back(Vec3(1 + i, -2, 0.5 * i));
+      s.acceleration.push_back(Vec3(30, 20 + i, -10));
+    }
     return s;
   }();
-  Available available{
-      true,
-      true,
-      {"adhesion_dissipated", "adhesion_stored", "bonded_area", "complementarity", "cone",
-       "driving_force", "energy", "energy_released", "negative_eigenvalues", "outside_fit",
-       "penetration", "shear_stiffness_min", "time", "unstable_volume", "viscous_work"}};
+  Available available{true,
+                      true,
+                      {"adhesion_dissipated",
+                       "adhesion_stored",
+                       "bonded_area",
+                       "complementarity",
+                       "cone",
+                       "driving_force",
+                       "energy",
+                       "energy_balance",
+                       "energy_released",
+                       "kinetic_energy",
+                       "load_factor",
+                       "load_pressure",
+                       "negative_eigenvalues",
+                       "outside_fit",
+                       "penetration",
+                       "pumped_volume",
+                       "shear_stiffness_min",
+                       "time",
+                       "unstable_volume",
+                       "viscous_work"}};
 
   Measures look(const std::string& list) const {
     return look_up(choices(list), "columns", body, available);
@@ -127,7 +150,8 @@ TEST_CASE("every quantity can be measured, is finite, and is found by its own wo
 
 TEST_CASE("every quantity is listed once, its word finds it, its unit is that of the number") {
   std::set<std::string> words;
-  const std::set<std::string> units{"-", "mm", "mm^2", "mm^3", "N", "MPa", "N mm", "s"};
+  const std::set<std::string> units{"-",   "mm",   "mm^2", "mm^3", "N",
+                                    "MPa", "N mm", "s",    "mm/s", "mm/s^2"};
   const std::string text = columns_text();
   for (std::size_t i = 0; i < quantity_lines().size(); ++i) {
     const QuantityLine& line = quantity_lines()[i];
@@ -152,6 +176,8 @@ TEST_CASE("a column has the dimension that its unit says") {
   for (Vec3& X : scaled.mesh.X) X *= length;
   for (Vec3& u : scaled.state.u) u *= length;
   for (Vec3& r : scaled.state.reaction) r *= force;
+  for (Vec3& v : scaled.state.velocity) v *= length;
+  for (Vec3& a : scaled.state.acceleration) a *= length;
   s.state.u_ind = Vec3(0.1, -0.4, 0.2), scaled.state.u_ind = length * s.state.u_ind;
   s.state.contact.assign(s.mesh.X.size(), {0.2, 0.05, 0.01, 2});
   scaled.state.contact.assign(s.mesh.X.size(), {stress * 0.2, stress * 0.05, length * 0.01, 2});
@@ -160,9 +186,16 @@ TEST_CASE("a column has the dimension that its unit says") {
   scaled.state.sums = {length * 0.6, length * force * 1.5, length * force * 0.2,
                        0.01,         length * force * 0.4, 0.7,
                        force * 0.8};
-  const std::map<std::string, double> factor{
-      {"-", 1},     {"mm", length},  {"mm^2", length * length}, {"mm^3", length * length * length},
-      {"N", force}, {"MPa", stress}, {"N mm", length * force},  {"s", 1}};
+  const std::map<std::string, double> factor{{"-", 1},
+                                             {"mm", length},
+                                             {"mm^2", length * length},
+                                             {"mm^3", length * length * length},
+                                             {"N", force},
+                                             {"MPa", stress},
+                                             {"N mm", length * force},
+                                             {"s", 1},
+                                             {"mm/s", length},
+                                             {"mm/s^2", length}};
   for (auto& history : scaled.state.histories) {
     const auto column = std::find_if(quantity_lines().begin(), quantity_lines().end(),
                                      [&](const auto& q) { return q.word == history.first; });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <ranges>
 #include <regex>
 #include <set>
 
@@ -232,17 +233,18 @@ struct Expansion {
   void add_rows_of_one_file() {
     const std::string path = (fs::path(base) / pattern.scalar).lexically_normal().string();
     const Tree* where = specimens.find("where");
-    if (!where || where->map.empty())
-      refuse(place, "specimens.data", fmt::format("one file, {}, of all specimens", pattern.scalar),
-             "{id} in its path, or where: {column: \"{id}\"}", "data: \"curves/{id}_{test}.csv\"");
+    if (!where || where->map.empty()) return;  // SpecimensConfig::complaints() says what is missing
     const CsvTable data = read_table(path);
     std::set<std::vector<std::string>> measured;
     std::vector<std::size_t> at;
     for (const Tree::Entry& one : where->map) {
       const auto head = std::ranges::find(data.header.cells, one.key, &CsvCell::text);
       if (head == data.header.cells.end())
-        refuse({path, data.header.line, 1}, "specimens.where",
-               fmt::format("no column is called {}", one.key), "the columns of `where`");
+        refuse(one.value.place, "specimens.where." + one.key,
+               fmt::format("{} has no column of this name", path),
+               fmt::format(
+                   "one of {}",
+                   fmt::join(data.header.cells | std::views::transform(&CsvCell::text), ", ")));
       at.push_back(static_cast<std::size_t>(head - data.header.cells.begin()));
     }
     const auto texts_of = [&](const CsvRow& row) {

@@ -45,6 +45,7 @@ void require_one_source(const StageSpec& stage, const Tree& config,
                     Error{key->place, port.name, "given here and as a file", "one of the two", ""});
     // or a mesh and a material for each of several bodies
     const Tree* bodies = config.find("bodies");
+    if (bodies && bodies->map.empty()) bodies = nullptr;  // as an effective config writes it
     if (bodies && given && port.name == std::string_view("mesh"))
       throw Failure(Exit::config, Error{bodies->place, "bodies", "given here, and a mesh as a file",
                                         "one of the two", ""});

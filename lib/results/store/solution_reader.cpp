@@ -72,7 +72,7 @@ std::string unit_of_history_or_field(const std::string& name) { return solution:
 std::string unit_of_nodal_field(const std::string& name) {
   if (name == "u") return "mm";
   if (name == "reaction") return "N";
-  return "-";
+  return solution::unit_of(name);
 }
 
 std::string unit_of_contact_array(const std::string& name) {
