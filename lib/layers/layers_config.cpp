@@ -11,6 +11,8 @@
 
 namespace langer {
 
+// A prestretch is given by two stretches along the axes or by a tensor, not both. A determinant of
+// 0 or below would fold the layer.
 std::vector<Complaint> PrestretchConfig::complaints() const {
   if (!tensor) return {};
   if (along != 1 || across != 1) {
@@ -23,6 +25,7 @@ std::vector<Complaint> PrestretchConfig::complaints() const {
   return {};
 }
 
+// The in-plane deformation gradient; the thickness follows from the law of the layer.
 Eigen::Matrix2d PrestretchConfig::deformation() const {
   PlaneDeformation F;
   F << along, 0, 0, across;
@@ -30,6 +33,7 @@ Eigen::Matrix2d PrestretchConfig::deformation() const {
   return F;
 }
 
+// The limit on directions finds a step that was typed in wrong units before hours are spent on it.
 std::vector<Complaint> AngleRange::complaints() const {
   if (!(from <= to)) {
     return {{"to", "found " + number_text(to), "at least from, " + number_text(from), ""}};
@@ -40,6 +44,8 @@ std::vector<Complaint> AngleRange::complaints() const {
   return {};
 }
 
+// In degrees. The list is used as it is; a range includes its end in spite of rounding, for which a
+// billionth of a step is allowed. Angles are products, not sums, so that errors do not add up.
 std::vector<double> LayersConfig::angles() const {
   if (!directions.empty()) return directions;
   const AngleRange range = direction_range.value_or(AngleRange{});
@@ -50,6 +56,7 @@ std::vector<double> LayersConfig::angles() const {
   return angles;
 }
 
+// Layers without a name are counted from 1, as in messages and tables.
 std::string LayersConfig::layer_name(std::size_t i) const {
   if (!layers[i].name.empty()) return layers[i].name;
   return fmt::format("layer {}", i + 1);
@@ -57,6 +64,9 @@ std::string LayersConfig::layer_name(std::size_t i) const {
 
 namespace {
 
+// Waves need densities, and at most one of the keys that set the frequency or the wavelength. In a
+// single half-space of an elastic law without surface tension there is no length to compare a
+// wavelength with: the speed is the same for all, and no frequency is necessary.
 void complain_about_waves(const LayersConfig& config, std::vector<Complaint>& all) {
   for (std::size_t i = 0; i < config.layers.size(); ++i) {
     if (!config.layers[i].density_kg_m3) {
@@ -84,6 +94,7 @@ void complain_about_waves(const LayersConfig& config, std::vector<Complaint>& al
   };
   complain_about_list(config.frequencies_Hz, "frequencies_Hz");
   complain_about_list(config.wavelengths_mm, "wavelengths_mm");
+  // Without a thickness and without surface tension, nothing makes the speed depend on frequency.
   const bool half_space =
       config.layers.size() == 1 && !config.layers[0].thickness && config.surface_tension_N_m == 0;
   if (given.empty() && !half_space) {
@@ -92,6 +103,8 @@ void complain_about_waves(const LayersConfig& config, std::vector<Complaint>& al
                    "frequency_Hz: 500"});
   }
   for (std::size_t i = 0; i < config.layers.size(); ++i) {
+    // Viscous branches have complex moduli at a frequency. A wavelength alone does not give one, so
+    // viscous layers accept frequencies only. One complaint is enough.
     const auto& material = config.layers[i].material;
     if (!material || !is_viscous(*material)) continue;
     if (config.wavelength_mm || !config.wavelengths_mm.empty()) {
@@ -105,6 +118,7 @@ void complain_about_waves(const LayersConfig& config, std::vector<Complaint>& al
   }
 }
 
+// Wrinkles are static: keys of waves have no meaning there and are refused, not ignored.
 void complain_about_wrinkles(const LayersConfig& config, std::vector<Complaint>& all) {
   const auto refuse = [&](const char* key, bool found) {
     if (found) all.push_back({key, "found with kind: wrinkles", "kind: waves", ""});
@@ -123,6 +137,8 @@ void complain_about_wrinkles(const LayersConfig& config, std::vector<Complaint>&
 
 }  // namespace
 
+// Checks that involve several keys; those of single numbers are made by the reader. A layer without
+// a thickness extends to infinity, so it must be the last, and it has no lower face.
 std::vector<Complaint> LayersConfig::complaints() const {
   std::vector<Complaint> all;
   if (layers.empty()) {
@@ -153,6 +169,8 @@ std::vector<Complaint> LayersConfig::complaints() const {
   return all;
 }
 
+// Layers in the units of the solver: mm, MPa and t/mm^3. A layer without a law of its own has the
+// law given on the command line; a half-space has an infinite thickness.
 std::vector<Layer> layers_at_rest(const LayersConfig& config, const std::optional<Material>& others,
                                   const std::function<Place(const std::string&)>& where) {
   std::vector<Layer> layers;

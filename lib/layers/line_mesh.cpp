@@ -29,6 +29,8 @@ std::vector<double> graded(double distance, double k, const LineChoice& choice) 
   return lengths;
 }
 
+// Equal lengths for solutions that oscillate through the whole thickness: at least two elements,
+// each a given phase long. oscillation is the wave number through the depth [1/mm].
 std::vector<double> uniform(double thickness, double oscillation, const LineChoice& choice) {
   const double room = thickness * oscillation / choice.size;
   const int n = std::max(2, static_cast<int>(std::ceil(room))) * choice.refine;
@@ -37,6 +39,10 @@ std::vector<double> uniform(double thickness, double oscillation, const LineChoi
 
 }  // namespace
 
+// Lines through the depth for motions of the wave number k [1/mm] along the surface. These decay
+// exponentially from the faces that they belong to, so lines are short at faces and grow with the
+// distance from them. A half-space, and a layer that reaches deep enough not to matter, is cut at a
+// depth of several 1/k. The result is listed from the bottom upwards.
 LineMesh line_mesh(const std::vector<double>& thickness, double k,
                    const std::vector<double>& oscillation, bool cuttable,
                    const LineChoice& choice) {
@@ -47,6 +53,7 @@ LineMesh line_mesh(const std::vector<double>& thickness, double k,
     const double oscillates = std::max(oscillation[layer], 0.0);
     const bool endless = std::isinf(thickness[layer]);
     std::vector<double> lengths;
+    // Only a layer without oscillation may be cut: an oscillating solution does not decay.
     const bool deep = cuttable && oscillates == 0 && depth + thickness[layer] > choice.deep / k;
     mesh.cut = endless || deep;
     double here = thickness[layer];
@@ -61,6 +68,7 @@ LineMesh line_mesh(const std::vector<double>& thickness, double k,
     } else if (mesh.cut) {
       lengths = graded(here, k, choice);
     } else {
+      // A layer between two faces is graded from both, and is symmetric about its middle.
       lengths = graded(here / 2, k, choice);
       std::vector<double> below(lengths.rbegin(), lengths.rend());
       lengths.insert(lengths.end(), below.begin(), below.end());

@@ -23,6 +23,7 @@ struct Use {
   int backward = 0;  // and the other way
 };
 
+// How often, and in which direction, the triangles use each edge.
 std::map<Edge, Use> edges_of(const Triangles& surface) {
   std::map<Edge, Use> edges;
   for (const std::array<int, 3>& triangle : surface.corners) {
@@ -60,6 +61,9 @@ std::string counted_edges(std::size_t n) {
 
 }  // namespace
 
+// A surface encloses a volume when each of its edges belongs to exactly two triangles that run
+// along it in opposite directions. Three faults are distinguished, since each has its own repair: a
+// hole, a wall inside, and triangles with opposite normals. The first kind found is reported.
 void require_closed(const Triangles& surface, const std::string& shown_name) {
   std::vector<Edge> open;
   std::vector<Edge> crowded;
@@ -95,6 +99,8 @@ void require_closed(const Triangles& surface, const std::string& shown_name) {
            "orient all normals outwards (MeshLab: Re-Orient all faces coherently)");
 }
 
+// By the divergence theorem: the sum of signed tetrahedra between a point and each triangle. The
+// sign depends on the orientation of the surface, so the absolute value is returned.
 double enclosed_volume(const Triangles& surface) {
   double six_volumes = 0;
   for (const std::array<int, 3>& c : surface.corners) {

@@ -16,6 +16,7 @@ constexpr double wedge = 0x1p-14;
 
 constexpr long long most = 100'000;  // cells; beyond, a number is more likely a slip than a wish
 
+// Complains about a grid with too many cells before it is made.
 void limit_cells(const SectionBox& b, const char* key, const std::string& found,
                  std::vector<Complaint>& complaints) {
   if (const long long cells = 1LL * b.divisions[0] * b.divisions[1]; cells > most)
@@ -23,6 +24,10 @@ void limit_cells(const SectionBox& b, const char* key, const std::string& found,
         {key, fmt::format("{}{} cells", found, cells), fmt::format("at most {} cells", most), ""});
 }
 
+// Coordinates of the grid lines along x (0) or y (1), both ends included [mm]. They are graded
+// towards the top and towards the indenter where the scene wants it, and then moved so that named
+// points and borders of layers are on a line. A family of meshes has its own rule, which inserts
+// these places as breaks.
 std::vector<double> lines_along(const SectionBox& b, int axis, const Points& points,
                                 std::vector<std::string>& notes) {
   const double low = b.origin[axis], high = low + b.size[axis];
@@ -33,6 +38,7 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   } else if (axis == 0 && b.centre && b.of == SectionOf::axisymmetric) {
     lines = refined(b.size[0], n, b.centre->edge, b.centre->within, "geometry.section.centre.edge");
     for (double& x : lines) x += low;
+    // The sum of lengths may miss the end by rounding; the side of the body is set exactly.
     lines.back() = high;
   } else if (axis == 0 && b.centre) {
     lines = lines_to_centre(low, high, n, b.centre->edge, b.centre->within,
@@ -54,6 +60,7 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   const std::string name(1, "xy"[axis]);
   const Moved moved =
       through(lines, demands, name, fmt::format("geometry.section.divisions[{}]", axis));
+  // A shift that is more than rounding is reported: cells are no longer those of the divisions.
   if (moved.furthest > 1e-9 * b.size[axis])
     notes.push_back(fmt::format(
         "grid lines of {} moved by up to {:.3g} mm to pass through points and borders of layers",
@@ -61,6 +68,7 @@ std::vector<double> lines_along(const SectionBox& b, int axis, const Points& poi
   return moved.lines;
 }
 
+// Points of a section have z = 0.
 std::vector<Complaint> off_plane(const Points& points) {
   std::vector<Complaint> found;
   for (const auto& [name, x] : points)
@@ -72,6 +80,8 @@ std::vector<Complaint> off_plane(const Points& points) {
 
 }  // namespace
 
+// A grid of one cell in depth. Its z is replaced by the depth of the section: a thin wedge for an
+// axisymmetric body, the thickness (1 mm where none is given) for a plane one.
 Mesh mesh_of(const SectionBox& box, const Points& points, std::vector<std::string>& notes) {
   const auto x = lines_along(box, 0, points, notes), y = lines_along(box, 1, points, notes);
   const int nx = static_cast<int>(x.size()), ny = static_cast<int>(y.size());
@@ -93,6 +103,7 @@ Mesh mesh_of(const IndentedDisc& disc, const Points& points, std::vector<std::st
   return mesh_of(disc.section(), points, notes);
 }
 
+// The numbers of cells along x and y; those of a family are only known once its lines are made.
 std::array<int, 2> SectionBox::numbers() const {
   if (!family) return instead.value_or(divisions);
   std::vector<std::string> notes;
@@ -116,6 +127,8 @@ std::vector<Complaint> SectionBox::complaints() const {
   return found;
 }
 
+// Half the section through a block whose half width is the radius of the disc. The grading around
+// the indenter is that of the block, with half its divisions along x.
 SectionBox IndentedDisc::section() const {
   IndentedBlock whole{{-size[0], base, -size[0]},
                       {2 * size[0], size[1], 2 * size[0]},
@@ -142,6 +155,8 @@ SectionBox IndentedDisc::section() const {
   return half;
 }
 
+// The contact must be clearly inside the disc, and the indenter must not reach its bottom. Only a
+// disc without such faults has its cells counted.
 std::vector<Complaint> IndentedDisc::complaints() const {
   std::vector<Complaint> found;
   const double contact = IndentedBlock{{}, {}, radius, depth, edge}.contact_radius();
@@ -156,6 +171,7 @@ std::vector<Complaint> IndentedDisc::complaints() const {
   return found;
 }
 
+// Demands that no grid can satisfy, found by an attempt to make its lines.
 std::vector<Complaint> contradictions(const SectionBox& box, const Points& points) {
   std::vector<std::string> notes;
   if (auto found = off_plane(points); !found.empty()) return found;

@@ -318,11 +318,9 @@ TEST_CASE("mutations of the shipped configs of solve with the scene composed") {
     std::vector<Mesh> meshes = shipped;
     const auto own = read_config<SolveConfig>(load_yaml(path.string()));
     if (own.config.mesh) meshes = {coarse_mesh(*own.config.mesh, own.where)};
-    // Several bodies have meshes of their own, and surfaces that touch are composed from them.
-    const auto is_deformable = [](const auto& contact) {
-      return contact.second.deformable();
-    };
-    if (std::ranges::any_of(own.config.contacts, is_deformable)) meshes.clear();
+    // Several bodies have meshes of their own: thousands of scenes would take too long. Names of
+    // bodies and of their sets are tested by tests/mortar.
+    if (!own.config.bodies.empty()) continue;
     for (const Mesh& mesh : meshes) try {
         if (!fitting) compose(load_yaml(path.string()), mesh), fitting = &mesh;
       } catch (const Failure&) {

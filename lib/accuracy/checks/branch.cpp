@@ -19,12 +19,15 @@ SolveConfig perfect(SolveConfig config) {
   return config;
 }
 
+// A key that contradicts what the computation found, with its place in the scene.
 [[noreturn]] void refuse_key(const Run::Where& where, const std::string& key, std::string found,
                              std::string expected, std::string hint) {
   throw Failure(Exit::config,
                 Error{where(key), key, std::move(found), std::move(expected), std::move(hint)});
 }
 
+// Follows the path of the perfect body up to its first critical point and leaves the run there, so
+// that modes can be computed. A path without a critical point is refused.
 CriticalPoint found_on_path(const Voice& voice, Run& run, const std::string& key,
                             const Run::Where& where) {
   auto point = first_critical_point(run);
@@ -39,6 +42,9 @@ CriticalPoint found_on_path(const Voice& voice, Run& run, const std::string& key
 
 }  // namespace
 
+// The start of a secondary path: at a bifurcation the state is moved along the critical mode, in
+// either direction. Without an amplitude it is a hundredth of the largest side of the body. At a
+// limit point there is no other path to change to, which is refused.
 Branch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& config,
                  const std::optional<Material>& material, const Run::Where& where) {
   Run run(mesh, perfect(config), material, where);
@@ -63,6 +69,8 @@ Branch branch_of(const Voice& voice, const Mesh& mesh, const SolveConfig& config
   return {out, std::move(point)};
 }
 
+// A mesh whose nodes are moved by a multiple of a buckling mode of the perfect body. The
+// bifurcation becomes a smooth path. The amplitude must not fold a cell.
 Mesh imperfect_mesh(const Voice& voice, Mesh mesh, const SolveConfig& config,
                     const std::optional<Material>& material, const Run::Where& where) {
   const ImperfectionConfig& imperfection = *config.imperfection;

@@ -31,8 +31,10 @@ std::string forces_of(const StepRecord& record) {
   return each;
 }
 
+// A status line is rewritten in place on a terminal only; a log file would collect every version.
 bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !said::log; }
 
+// The size of the model, for the first line of a run.
 std::string sizes(const Run& run) {
   const Mesh& mesh = run.body.mesh();
   return fmt::format("{} {}, {} nodes, {} free dofs, {}", mesh.n_cells(), mesh.cell().names.shape,
@@ -40,6 +42,8 @@ std::string sizes(const Run& run) {
                      names(run.body.formulation())[static_cast<int>(run.body.formulation())]);
 }
 
+// The residual relative to its reference force, or absolute [N] where there is no force yet. A
+// state with a folded element has no residual.
 std::string residual_of(const Assessment& found) {
   if (!found.admissible) return "not admissible";
   double residual = found.residual;
@@ -76,6 +80,7 @@ Progress::Progress(const Voice& voice, const Run& run)
   voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run), families, contacts, ranks);
 }
 
+// A continued run counts its remaining time from where it continues.
 void Progress::resumed(int steps, double t) {
   from_ = t;
   step_ = steps;
@@ -91,6 +96,9 @@ std::string Progress::left(double t) const {
   return fmt::format("  {:.1f} h remaining", seconds / 3600);
 }
 
+// Wraps the problem of one increment so that each assessment of a state is shown. The iteration
+// counts from 0, the predicted state. Where nothing would be shown the problem is returned as it
+// is.
 Problem Progress::watched(Problem problem, double t) {
   if (voice_.quiet || (!voice_.verbose && !live_)) return problem;
   problem.assess = [this, t, n = 0, assess = std::move(problem.assess)](const VecX& x,
@@ -105,6 +113,8 @@ Problem Progress::watched(Problem problem, double t) {
   return problem;
 }
 
+// The same for the additional computations of an error estimate, which also end when the user
+// interrupts: an assessment that is not admissible stops the iteration.
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of) {
   const std::string who = fmt::format("errors: scene {} of {}", n, of);
   voice.say("{}, {}", who, sizes(run));
@@ -127,6 +137,9 @@ RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of)
   return listener;
 }
 
+// One line for each step that was found: the load, the effort, and the quality of the state. An
+// unstable state is always printed, even where the status line is rewritten. NaN counts as
+// unstable, hence the negated comparison.
 void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   ++step_;
   if (voice_.quiet) return;
@@ -162,6 +175,8 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   if (!live_ || unstable) say_line(line);
 }
 
+// A jump may pass through many equilibria at the same t: a message every ten seconds shows that the
+// program still works.
 void Progress::jumping(double t, int equilibria) {
   constexpr double between = 10;  // s
   if (equilibria == 0) said_ = wall_seconds();
@@ -175,6 +190,7 @@ void Progress::failed(double t, const SolveReport& report) const {
   voice_.say("no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
 }
 
+// Totals of a run: steps, memory, and where the CPU time was spent.
 void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
   const Statics::Cost cost = statics.cost();
   voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps,

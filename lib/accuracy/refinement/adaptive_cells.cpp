@@ -19,6 +19,7 @@ constexpr double equal = 1e-4;  // relative: errors that symmetry makes equal
 constexpr double across = 0.5;
 constexpr int most_at_first = 20'000;
 
+// The extent of a cell in x and z, as seen by an indenter from above [mm].
 double longest_edge_in_plan(const Mesh& mesh, int e) {
   const ElementNodes X = element_nodes(mesh, e);
   const Eigen::RowVector3d size = X.colwise().maxCoeff() - X.colwise().minCoeff();
@@ -27,6 +28,11 @@ double longest_edge_in_plan(const Mesh& mesh, int e) {
 
 }  // namespace
 
+// Marks the cells with the largest parts of the error, until a sum is reached. A cut divides the
+// error of a cell by 2^order: if a share s of the error is marked, 1 - s (1 - 2^-order) of it
+// remains. This is solved for s with the wanted remainder. Limits keep s useful: too few cells need
+// too many levels, too many are no longer a choice. Parts that are equal by symmetry are marked
+// together, so that the cut mesh remains symmetric.
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order) {
   std::vector<std::size_t> by_size(parts.size());
   std::iota(by_size.begin(), by_size.end(), 0);
@@ -52,6 +58,7 @@ std::vector<char> largest_parts(const std::vector<double>& parts, double wanted,
   return marked;
 }
 
+// Why cells of a scene cannot be cut one by one; an empty text where they can.
 std::string reason_not_refinable(const SolveConfig& config) {
   const bool dual = config.estimate == EstimateBy::dual;
   if (!dual && config.estimate != EstimateBy::recovery)
@@ -65,6 +72,7 @@ std::string reason_not_refinable(const SolveConfig& config) {
   return never.front().found;
 }
 
+// The same for a mesh that was read or made.
 std::string reason_not_refinable(const Mesh& mesh) {
   if (mesh.section) return "sections have no cuts";
   if (mesh.type != CellType::hex8) return "hex8 alone are cut";
@@ -72,6 +80,10 @@ std::string reason_not_refinable(const Mesh& mesh) {
   return "";
 }
 
+// Cuts cells below the indenters until each is at most half as long as the contact is half wide.
+// The region reaches as deep as the contact is half wide, where stresses are largest. It ends early
+// where the mesh would exceed its first limit. Returns the number of rounds; each adds seven cells
+// for each one that is cut.
 int shorten_under(const SolveConfig& config, CutMesh& cells) {
   const BoundingBox body = bounding_box(cells.mesh().X);
   const Vec3 size = body.size();

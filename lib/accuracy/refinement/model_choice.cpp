@@ -11,6 +11,7 @@ namespace langer {
 
 namespace {
 
+// A mesh file replaces the geometry of the scene, so the choice of a section must not use it.
 SolveConfig of_scene(SolveConfig config, const std::string& file) {
   if (!file.empty()) config.mesh.reset();
   return config;
@@ -35,6 +36,9 @@ Accuracy ModelChoice::of_model() const {
   return Accuracy(voice_, section_.taken() ? section_.config() : asked_, material_, where_, dry_);
 }
 
+// The mesh of the next computation: the cut cells of the last decision, or at first the mesh of the
+// scene. Where cells may be cut, those under indenters are cut in advance, because an error
+// estimate of a contact that a single cell resolves is not useful.
 Mesh ModelChoice::mesh() {
   if (cells_) return cells_->mesh();
   Mesh mesh = body_mesh(config(), file_, where_);
@@ -46,6 +50,9 @@ Mesh ModelChoice::mesh() {
   return cells_->mesh();
 }
 
+// What follows from the estimated errors of a computation. A section that is not accurate enough is
+// replaced first, by a finer section or by the block. Then the cells are refined until the target
+// is reached, the limits on size are reached, or a finer level is not better.
 Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   if (!section_.accurate(errors.at_end)) {
     before_.reset();
@@ -55,8 +62,10 @@ Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   if (is_last_) return accuracy_.final_decision(errors.at_end);
   std::optional<Level> here;
   const std::optional<double> percent = accuracy_.missed_percent(errors.at_end);
+  // This level is kept as a place to return to, with its error, if the next one fails.
   if (!forces_judged(errors.at_end).empty()) here = Level{accuracy_, cells_, percent};
   Decision decision;
+  // Errors without parts by cells can only refine everywhere; errors by cells cut where they are.
   if (errors.of_cells.empty()) {
     decision = accuracy_.decide(errors.at_end);
   } else if (cut(errors, mesh)) {
@@ -79,6 +88,7 @@ Decision ModelChoice::decide(const PathErrors& errors, const Mesh& mesh) {
   return {Decision::Action::refine};
 }
 
+// Solves the level before once more, now as the last: its decision is final whatever it finds.
 void ModelChoice::back_to_level_before(const std::string& why) {
   voice_.say("accuracy: {}; again with the cells and increments of the level before", why);
   accuracy_ = before_->accuracy;
@@ -88,6 +98,8 @@ void ModelChoice::back_to_level_before(const std::string& why) {
   is_last_ = true;
 }
 
+// A failure of a finer level is no failure of the scene: the level before had an equilibrium.
+// Faults of the input, in contrast, are passed on.
 bool ModelChoice::retry_after(const Failure& failure) {
   if (accuracy_.retry_after(failure)) return true;
   if (!before_ || failure.code() != Exit::not_converged) return false;
@@ -97,6 +109,9 @@ bool ModelChoice::retry_after(const Failure& failure) {
   return true;
 }
 
+// Cuts the cells with the largest parts of the error. False, with a reason for the summary, where
+// the mesh has no cuts, the number of cells would exceed its limit, or the next level would be too
+// expensive. The mesh remains as it was in all these cases.
 bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   const std::optional<double> wanted = accuracy_.wanted_share(errors.at_end);
   if (!wanted) return false;
@@ -108,6 +123,7 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   }
   const std::vector<ErrorEstimate> judged = forces_judged(errors.at_end);
   CutMesh next = *cells_;
+  // With the order p of convergence, a cut divides the error of a cell by 2^p.
   double order = 2;
   if (!judged.empty()) order = judged.front().order;
   next.cut(largest_parts(errors.of_cells, refinement::target * *wanted, order));

@@ -30,6 +30,8 @@ std::string flat(const Tree& t) {
 
 }  // namespace
 
+// JSON text with two spaces for each level. What fits in one line is written in one, which keeps
+// lists of numbers readable.
 std::string json_of(const Tree& t, int indent) {
   constexpr std::size_t widest = 100;
   const std::string one = flat(t);
@@ -48,6 +50,7 @@ std::string json_of(const Tree& t, int indent) {
 
 namespace schema {
 
+// The value of "include": one name of a file, or a list of them.
 Tree included() {
   return object(
       {{"description",
@@ -57,6 +60,7 @@ Tree included() {
         list({type("string"), object({{"type", word("array")}, {"items", type("string")}})})}});
 }
 
+// The range of a number becomes minimum and maximum; an open end has no key.
 Tree number(const Member& m, bool whole) {
   Tree t = type(whole ? "integer" : "number");
   const Range& r = m.range;
@@ -69,6 +73,7 @@ Tree number(const Member& m, bool whole) {
   return t;
 }
 
+// The text of an editor's tooltip: the documentation of the key, with its unit in brackets.
 Tree described(Tree schema, const Member& m) {
   std::string says = m.doc;
   if (std::string(m.unit) != unit::none) says += fmt::format(" [{}]", m.unit);
@@ -76,21 +81,27 @@ Tree described(Tree schema, const Member& m) {
   return schema;
 }
 
+// A text with a list of words accepts these alone. Free text may also be written without quotation
+// marks as a number or as true or false, which an editor would otherwise mark as wrong.
 Tree text_schema(const Member& m) {
   if (m.words.empty()) return types({"string", "number", "boolean"});
   return object({{"enum", words(m.words)}});
 }
 
+// An unknown key is most often misspelt, so an editor marks it as the reader refuses it.
 void refuse_others(Tree& object) {
   object.map.push_back({"additionalProperties", plain_tree("false")});
 }
 
+// A part that includes a file may leave out required keys, as the file has them: such an object is
+// checked against the part without its required keys, any other against the whole.
 Tree or_included(Tree whole, const std::string& part) {
   return object({{"if", object({{"type", word("object")}, {"required", words({"include"})}})},
                  {"then", reference(part)},
                  {"else", std::move(whole)}});
 }
 
+// The whole schema: the rules of the root, and the shared parts under "definitions".
 std::string document(const std::string& title, Tree root, const Definitions& definitions) {
   Tree all = object();
   for (const auto& [name, tree] : definitions) all.map.push_back({name, tree});

@@ -19,8 +19,10 @@ namespace langer {
 namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
+// Files have speeds in m/s, as devices report them; the solver works in mm and s.
 constexpr double mm_per_m = 1000;
 
+// A fault of a data file, with the line and the column of the file in the message.
 [[noreturn]] void refuse_wave(const Place& place, const std::string& key, std::string found,
                               std::string expected, std::string hint = "") {
   throw Failure(Exit::input,
@@ -35,6 +37,7 @@ std::optional<std::size_t> find_column(const CsvTable& table, const std::string&
   return std::nullopt;
 }
 
+// The message lists all columns of the file: most faults are misspelt names.
 std::size_t column_called(const CsvTable& table, const std::string& name, const std::string& key) {
   if (const auto found = find_column(table, name)) return *found;
   std::string all;
@@ -43,6 +46,7 @@ std::size_t column_called(const CsvTable& table, const std::string& name, const 
               "one of " + all, "columns: {angle: ..., speed: ...} names them");
 }
 
+// Infinity and NaN are refused as well: a fit would end with them in every parameter.
 double number_at(const CsvTable& table, const CsvRow& row, std::size_t column,
                  const std::string& key) {
   const CsvCell& cell = row.cells[column];
@@ -54,6 +58,7 @@ double number_at(const CsvTable& table, const CsvRow& row, std::size_t column,
   return *number;
 }
 
+// Speeds and frequencies are above 0.
 double positive_at(const CsvTable& table, const CsvRow& row, std::size_t column,
                    const std::string& key, const char* unit) {
   const double number = number_at(table, row, column, key);
@@ -66,6 +71,10 @@ double positive_at(const CsvTable& table, const CsvRow& row, std::size_t column,
 
 }  // namespace
 
+// Tests of the data that are speeds of surface waves. They depend on the parameters of the law and
+// perhaps on prestretches. The copy of the problem is only used to set parameters of the law, so
+// its own tests are removed. All speeds together form one vector of residuals, each weighted with
+// the inverse of the standard deviation of its test.
 WaveTests::WaveTests(const FitConfig& config, const Where& where, const FitProblem& problem)
     : config_(config), law_(problem) {
   law_.tests.clear();
@@ -75,6 +84,7 @@ WaveTests::WaveTests(const FitConfig& config, const Where& where, const FitProbl
   for (std::size_t i = 0; i < config_.data.size(); ++i) {
     if (!config_.data[i].is_wave()) continue;
     WaveTest test = read(i, where);
+    // Two files with the same name would share a curve in the results: the later one is numbered.
     const std::string name = test.name;
     const auto is_taken = [&](const WaveTest& other) {
       return other.name == test.name;
@@ -91,6 +101,8 @@ WaveTests::WaveTests(const FitConfig& config, const Where& where, const FitProbl
   weight_ = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
 }
 
+// Reads one file. Columns without names in the scene have the names that the layers stage writes,
+// so that its results can be fitted without further keys.
 WaveTests::WaveTest WaveTests::read(std::size_t item, const Where& where) const {
   const FitData& data = config_.data[item];
   FitColumns columns = data.columns.value_or(FitColumns{});
@@ -99,6 +111,7 @@ WaveTests::WaveTest WaveTests::read(std::size_t item, const Where& where) const 
     columns.speed = "speed_m_s";
   }
   CsvReading reading{data.decimal};
+  // Devices write lines of remarks first: the line of names is the one with the column of speeds.
   reading.is_header = [&](const std::vector<CsvCell>& cells) {
     return std::ranges::any_of(cells,
                                [&](const CsvCell& cell) { return cell.text == columns.speed; });
@@ -112,6 +125,8 @@ WaveTests::WaveTest WaveTests::read(std::size_t item, const Where& where) const 
   } else if (!data.columns) {
     frequency = find_column(table, "frequency_Hz");
   }
+  // The speed depends on the frequency in a layer of finite thickness and in a viscous law. Without
+  // frequencies such a test cannot be computed.
   const bool viscous = is_viscous(config_.law);
   if (!frequency && (data.thickness || viscous)) {
     const std::string key = fmt::format("data[{}].columns.frequency", item);
@@ -142,11 +157,15 @@ WaveTests::WaveTest WaveTests::read(std::size_t item, const Where& where) const 
     refuse_wave({table.name, table.header.line, 1}, "file", "no rows", "a row of numbers at least",
                 data.where.empty() ? "" : "see `where`");
   }
+  // Without a standard deviation the noise is a share of the largest speed of the test.
   const double largest = *std::ranges::max_element(test.speed);
   test.deviation = data.standard_deviation.value_or(config_.noise() * largest);
   return test;
 }
 
+// One layer at the parameters p. Free stretches of this test replace those of the scene; stretches
+// of other tests have numbers of their own and are skipped. Without a thickness the layer is a
+// half-space.
 LayerStack WaveTests::stack_at(const WaveTest& test, const VecX& p) const {
   const FitData& data = config_.data[test.data];
   PrestretchConfig prestretch = data.prestretch.value_or(PrestretchConfig{});
@@ -165,6 +184,8 @@ LayerStack WaveTests::stack_at(const WaveTest& test, const VecX& p) const {
   return {{layer_state(layer, prestretch.deformation(), config_.dilatation)}};
 }
 
+// The computed speeds in m/s, in the order of the measured ones. False where a surface wave does
+// not exist, for example in a state that is unstable: the fit then rejects the parameters.
 bool WaveTests::model(const VecX& p, VecX& values) {
   values.resize(measured_.size());
   Eigen::Index at = 0;
@@ -183,11 +204,15 @@ bool WaveTests::model(const VecX& p, VecX& values) {
   return true;
 }
 
+// The slope by central differences; at the edge of the states in which waves exist, by a difference
+// to the side that has them. The step is relative to the parameter, with a floor of a share of its
+// interval for parameters near 0. False where neither side has a wave.
 bool WaveTests::slope(const VecX& p, MatX& J) {
   J.resize(measured_.size(), p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     const FreeParameter& free = law_.free[static_cast<std::size_t>(i)];
     double width = free.upper - free.lower;
+    // A parameter without bounds has no interval.
     if (!std::isfinite(width)) width = 1;
     const double h = 1e-5 * std::max(std::abs(p[i]), 1e-2 * width);
     VecX above;
@@ -213,6 +238,8 @@ bool WaveTests::slope(const VecX& p, MatX& J) {
   return true;
 }
 
+// Curves for the results: measured and computed speeds over the angle. The qualities of the
+// homogeneous tests come first in the list of the fit.
 std::vector<FittedCurve> WaveTests::fitted(const FitResult& fit,
                                            std::size_t homogeneous_tests) const {
   std::vector<FittedCurve> all;

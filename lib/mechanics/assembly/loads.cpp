@@ -10,17 +10,22 @@ namespace langer {
 Loads::Loads(const Mesh& mesh, std::vector<SurfaceLoad> loads, std::vector<double> cell_share)
     : mesh_(&mesh), loads_(std::move(loads)), cell_share_(std::move(cell_share)) {}
 
+// Pressures follow the surface as it turns and grows, and so add to the tangent; tractions keep
+// their direction and their force per area at rest.
 bool Loads::follow() const {
   return std::any_of(loads_.begin(), loads_.end(),
                      [](const SurfaceLoad& load) { return load.pressure != 0 || load.volume; });
 }
 
+// Whether a load changes between two times of the path.
 bool Loads::moves(double t0, double t) const {
   return std::any_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
     return factor_at(load.factor, t0) != factor_at(load.factor, t);
   });
 }
 
+// Whether all factors change as fast in the next increment as in the last. A prediction of the next
+// state by extrapolation is useful only then.
 bool Loads::keeps_rate(double before, double now, double next) const {
   return std::all_of(loads_.begin(), loads_.end(), [&](const SurfaceLoad& load) {
     const double f = factor_at(load.factor, now);
@@ -30,9 +35,12 @@ bool Loads::keeps_rate(double before, double now, double next) const {
   });
 }
 
+// The nodal forces of all loads, facet by facet, with the stiffness of pressures where it is
+// requested. The stiffness is minus the derivative of the force, since K u = f has it on the left.
 void Loads::each(double t, const Displacements& u, bool with_stiffness, const OnFacet& on) const {
   for (const SurfaceLoad& load : loads_) {
     const double factor = factor_of(load, t);
+    // A closed cavity without pressure has no force, but its pressure is an unknown, not a factor.
     if (factor == 0 || (load.volume && load.pressure == 0)) continue;
     for (const Facet& facet : load.facets) {
       const double share = factor * share_of(facet.cell);
@@ -52,6 +60,10 @@ void Loads::each(double t, const Displacements& u, bool with_stiffness, const On
   }
 }
 
+// What the stiffness above leaves out. The follower stiffness of a single facet is not symmetric;
+// only its symmetric part is assembled, as the skew parts of neighbouring facets cancel. They
+// remain on the rim of the loaded surface. This is the exact change of force for du minus the
+// symmetric part of it.
 void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
                       const OnRim& on) const {
   const ReferenceCell& cell = mesh_->cell();
@@ -73,6 +85,7 @@ void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
   }
 }
 
+// All loads at the time t as one vector of nodal forces [N].
 VecX Loads::forces(double t, const VecX& u) const {
   VecX f = VecX::Zero(u.size());
   each(
@@ -85,11 +98,13 @@ VecX Loads::forces(double t, const VecX& u) const {
   return f;
 }
 
+// How many such cells the whole body has: more than one where only a part of the body is meshed.
 double Loads::share_of(int cell) const {
   if (cell_share_.empty()) return 1;
   return cell_share_[static_cast<std::size_t>(cell)];
 }
 
+// The factor of a cavity scales the volume that is given, not the pressure that results.
 double Loads::factor_of(const SurfaceLoad& load, double t) {
   if (load.volume) return 1;  // its pressure is that of the state
   return factor_at(load.factor, t);
@@ -101,12 +116,14 @@ int Loads::n_volumes() const {
   return n;
 }
 
+// The place in the list of loads of the i-th one with a given volume.
 std::size_t Loads::volume_index(int i) const {
   std::size_t at = 0;
   while (!loads_[at].volume || i-- > 0) ++at;
   return at;
 }
 
+// The volume that must have entered the cavity at the time t [mm^3].
 double Loads::given_volume(int i, double t) const {
   const SurfaceLoad& load = volume_load(i);
   return *load.volume * factor_at(load.factor, t);
@@ -127,10 +144,13 @@ double Loads::swept_volume(int i, const Displacements& u) const {
   return volume;
 }
 
+// The pressures of the cavities are unknowns of the equilibrium; the solver passes them here.
 void Loads::set_pressures(const VecX& p) {
   for (int i = 0; i < static_cast<int>(p.size()); ++i) loads_[volume_index(i)].pressure = p[i];
 }
 
+// The forces of a unit pressure in the i-th cavity: the column that belongs to this unknown, and at
+// the same time the derivative of the swept volume with respect to the displacements.
 void Loads::each_unit(int i, const Displacements& u, const OnFacet& on) const {
   const ReferenceCell& cell = mesh_->cell();
   for (const Facet& facet : volume_load(i).facets) {

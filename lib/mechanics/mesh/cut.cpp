@@ -22,6 +22,7 @@ std::vector<int> corners_at(std::span<const int> cell, const std::array<int, 3>&
 }
 
 template <std::size_t n>
+// Sorted corners identify an edge or a facet in whichever cell it is seen.
 std::array<int, n> key_of(const std::vector<int>& corners) {
   std::array<int, n> key;
   std::copy(corners.begin(), corners.end(), key.begin());
@@ -67,6 +68,9 @@ void CutMesh::close(std::vector<char>& marked) const {
   }
 }
 
+// The node in the middle of an edge, a facet or a cell. Cells that share an edge or a facet share
+// its node; the middle of a cell belongs to that cell alone. A new node joins the node sets that
+// have all its corners, unless it is inside the cell.
 int CutMesh::middle(const std::vector<int>& corners) {
   const auto added = [&] {
     Vec3 X = Vec3::Zero();
@@ -92,6 +96,9 @@ int CutMesh::middle(const std::vector<int>& corners) {
   return node;
 }
 
+// Cuts a cell into eight. A grid of 3 x 3 x 3 places holds the old corners and the middles; each
+// child has a corner of the old cell and the middles around it. Bodies and fibre frames are
+// inherited: a child has the frame of its parent.
 void CutMesh::add_children(int e, Mesh& to) {
   const auto span = mesh_.cell(e);
   const std::vector<int> cell(span.begin(), span.end());
@@ -118,6 +125,10 @@ void CutMesh::add_children(int e, Mesh& to) {
   }
 }
 
+// Cuts the marked cells and those that the rule of one level requires. Children replace their
+// parent at its place in the order of cells. A facet in a set is replaced by its four quarters:
+// those of the children on the same side, as bit k of a child's number is its side along axis k and
+// facet 2 k + s is on side s of axis k.
 void CutMesh::cut(std::vector<char> marked) {
   close(marked);
   Mesh to;
@@ -149,6 +160,8 @@ void CutMesh::cut(std::vector<char> marked) {
   find_hanging();
 }
 
+// A middle that was made for an edge or a facet hangs as long as some cell still has the whole edge
+// or facet. Edges list each end twice, so that four weights of 1/4 are the mean of two.
 void CutMesh::find_hanging() {
   std::map<int, HangingNode> found;
   for (int e = 0; e < mesh_.n_cells(); ++e)
@@ -167,6 +180,8 @@ void CutMesh::find_hanging() {
   for (const auto& [node, hangs] : found) mesh_.hanging.push_back(hangs);
 }
 
+// Whether a cell overlaps a region, by the box around the cell: touching faces do not count. A
+// round region is an elliptic cylinder along y; the point of the box nearest to its axis decides.
 bool has_part_of(const CutRegion& region, const Mesh& mesh, int e) {
   Vec3 low = mesh.X[mesh.cell(e)[0]];
   Vec3 high = low;

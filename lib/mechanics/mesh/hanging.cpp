@@ -7,10 +7,14 @@
 
 namespace langer {
 
+// A hanging node is in the middle of an edge or a facet of a larger neighbour and has no unknowns
+// of its own: it moves with the mean of the corners that it hangs on. For each cell with such
+// nodes, the constructor finds the nodes that do move and the weights of their displacements.
 MovingNodes::MovingNodes(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.hanging.empty()) return;
   if (mesh.type != CellType::hex8)
     throw std::logic_error("nodes hang in a mesh of other cells than hex8");
+  // By node: what it hangs on, or null. A search in the list for each corner would be quadratic.
   std::vector<const HangingNode*> hangs(mesh.X.size(), nullptr);
   for (const HangingNode& h : mesh.hanging) hangs[h.node] = &h;
   row_.assign(mesh.n_cells(), -1);
@@ -21,6 +25,9 @@ MovingNodes::MovingNodes(const Mesh& mesh) : mesh_(mesh) {
   }
 }
 
+// A cell of eight corners must depend on eight moving nodes. Each hanging corner is replaced by a
+// node that it hangs on and that is not yet a corner of the cell. The counts agree where neighbours
+// differ by one level of cutting; a larger difference is refused.
 void MovingNodes::add_cell(int e, const std::vector<const HangingNode*>& hangs) {
   const auto own = mesh_.cell(e);
   std::array<int, 8> moves;
@@ -34,6 +41,7 @@ void MovingNodes::add_cell(int e, const std::vector<const HangingNode*>& hangs) 
   }
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());
+  // Corners of the cell that move themselves are already among the eight.
   std::erase_if(others,
                 [&](int n) { return std::find(moves.begin(), moves.end(), n) != moves.end(); });
   std::size_t next = 0;
@@ -41,10 +49,14 @@ void MovingNodes::add_cell(int e, const std::vector<const HangingNode*>& hangs) 
     if (n < 0 && next < others.size()) n = others[next++];
   const bool one_for_each =
       next == others.size() && std::find(moves.begin(), moves.end(), -1) == moves.end();
+  // A node that hangs on a node that hangs would need products of weights, which a mesh cut level
+  // by level never has.
   const bool hang_again =
       std::any_of(others.begin(), others.end(), [&](int n) { return hangs[n] != nullptr; });
   if (!one_for_each || hang_again)
     throw std::logic_error("a neighbour of an element is less than half as long");
+  // u_corner = C u_moving. A row of a moving corner has a single 1. A row of a hanging corner has
+  // four quarters; on an edge each end is listed twice, so its two weights become 1/2.
   MatX C = MatX::Zero(8, 8);
   const auto slot = [&](int n) {
     return std::find(moves.begin(), moves.end(), n) - moves.begin();
@@ -61,6 +73,7 @@ void MovingNodes::add_cell(int e, const std::vector<const HangingNode*>& hangs) 
   weights_.push_back(std::move(C));
 }
 
+// Cells without hanging corners have no row: their own nodes are those that move.
 std::span<const int> MovingNodes::of(int e) const {
   if (row_.empty() || row_[e] < 0) return mesh_.cell(e);
   return std::span<const int>(nodes_[row_[e]]);
@@ -71,12 +84,15 @@ const MatX* MovingNodes::weights(int e) const {
   return &weights_[row_[e]];
 }
 
+// The list ascends by node, so a binary search is enough.
 const HangingNode* hanging_at(const std::vector<HangingNode>& hanging, int node) {
   const auto at = std::ranges::lower_bound(hanging, node, {}, &HangingNode::node);
   if (at != hanging.end() && at->node == node) return &*at;
   return nullptr;
 }
 
+// A set of nodes, together with the hanging nodes all of whose supports are in the set. A node on a
+// supported edge moves with its ends, so it belongs to the support as well.
 std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
   std::sort(nodes.begin(), nodes.end());
   const std::vector<int> own = nodes;
@@ -89,6 +105,8 @@ std::vector<int> with_hanging(const Mesh& mesh, std::vector<int> nodes) {
   return nodes;
 }
 
+// Checks hanging nodes that were read from a file. An empty text means no fault. Each node must be
+// in the middle of its supports, to 1e-6 of their distance: the weights of 1/4 assume it.
 std::string hanging_fault(const Mesh& mesh) {
   if (mesh.type != CellType::hex8 || mesh.section)
     return "hanging nodes in a mesh of other elements than hex8";
@@ -105,6 +123,7 @@ std::string hanging_fault(const Mesh& mesh) {
     if (!((middle - mesh.X[h.node]).norm() <= 1e-6 * size))
       return fmt::format("node {}, which is not in the middle of those it hangs on", h.node);
   }
+  // The table of moving nodes finds what remains: cells with wrong numbers of supports.
   try {
     const MovingNodes moving(mesh);
   } catch (const std::logic_error& wrong) {

@@ -39,6 +39,7 @@ class Places {
   std::unordered_map<std::size_t, std::vector<int>> boxes_;
 };
 
+// Cells are compared by their sets of nodes: an image may begin at another corner.
 std::vector<int> sorted(std::vector<int> nodes) {
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -46,10 +47,14 @@ std::vector<int> sorted(std::vector<int> nodes) {
 
 }  // namespace
 
+// For each node and each cell, the one to which a rotation or a reflection about a centre moves it.
+// No result where one of them has no image, so that the mesh does not have this symmetry. Bodies
+// must be mapped onto themselves: two bodies of the same shape may have different materials.
 std::optional<MeshImage> find_image(const Mesh& mesh, const Mat3& turn, const Vec3& centre) {
   MeshImage s{turn, centre, {}, {}};
   const double size = bounding_box(mesh.X).size().norm();
   const double tolerance = 1e-9 * size;
+  // About one node in each box, as many boxes as nodes in a filled cube.
   const Places places(mesh.X, size / std::cbrt(static_cast<double>(mesh.X.size())));
   for (const Vec3& X : mesh.X) {
     const int image = places.at(centre + turn * (X - centre), tolerance);
@@ -59,6 +64,7 @@ std::optional<MeshImage> find_image(const Mesh& mesh, const Mat3& turn, const Ve
   std::vector<std::vector<int>> cells_of(mesh.X.size()), nodes_of;
   for (int e = 0; e < mesh.n_cells(); ++e) {
     nodes_of.push_back(sorted({mesh.cell(e).begin(), mesh.cell(e).end()}));
+    // Each cell is entered under its smallest node, which is enough to find it quickly.
     cells_of[nodes_of[e][0]].push_back(e);
   }
   for (int e = 0; e < mesh.n_cells(); ++e) {

@@ -30,6 +30,7 @@ std::vector<Mat3> cube_rotations() {
   return rotations;
 }
 
+// Nodes of the reference cell are at coordinates -1, 0 and 1: 0.5 separates them all.
 int node_near(const ReferenceCell& cell, const Vec3& xi) {
   for (int a = 0; a < cell.n_nodes; ++a)
     if ((cell.node[a] - xi).norm() < 0.5) return a;
@@ -42,6 +43,8 @@ Cell rounded(const Vec3& x, double unit) {
   return {std::llround(x[0] / unit), std::llround(x[1] / unit), std::llround(x[2] / unit)};
 }
 
+// Layer by layer in y, then z, then x. Rounded places are compared, so that noise in the last
+// digits does not change the order.
 std::vector<int> sorted_by_place(const std::vector<Vec3>& places, double unit) {
   std::vector<std::array<long long, 3>> keys;
   for (const Vec3& x : places) {
@@ -58,6 +61,7 @@ std::vector<int> sorted_by_place(const std::vector<Vec3>& places, double unit) {
 
 namespace {
 
+// Renumbers the nodes of a cell as if its reference cube were turned by R. Its shape is unchanged.
 void turn_cell(Mesh& mesh, int e, const Mat3& R) {
   const ReferenceCell& cell = mesh.cell();
   std::vector<int> nodes;
@@ -67,6 +71,8 @@ void turn_cell(Mesh& mesh, int e, const Mat3& R) {
 
 }  // namespace
 
+// Turns each cell so that its reference axes follow x, y and z as closely as possible. Of equal
+// rotations the first is kept. Results by cell then have the same orientation on all machines.
 void turn_cells(Mesh& mesh) {
   const std::vector<Mat3> rotations = cube_rotations();
   for (int e = 0; e < mesh.n_cells(); ++e) {
@@ -82,6 +88,9 @@ void turn_cells(Mesh& mesh) {
   }
 }
 
+// In meshes made of blocks around an axis along y, the first reference axis shall point away from
+// the axis. The core in the middle keeps its orientation. Mirrored blocks also agree on the
+// direction around the axis, so that the mesh is its own mirror image, with cells and all.
 void turn_outwards(Mesh& mesh, const Vec3& axis, double core, Blocks blocks) {
   const Mat3 quarter{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};  // of a turn about eta
   const Mat3 over{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};    // half a turn about xi
@@ -105,6 +114,8 @@ void turn_outwards(Mesh& mesh, const Vec3& axis, double core, Blocks blocks) {
   }
 }
 
+// Numbers nodes, then cells by their centres, in the order of places. A mesh of the same geometry
+// has the same numbers in whichever way it was made.
 void number_in_order(Mesh& mesh) {
   const double unit = 1e-9 * size(mesh);
   const std::vector<int> nodes = sorted_by_place(mesh.X, unit);
@@ -156,6 +167,9 @@ class Finder {
 
 }  // namespace
 
+// Removes the rounding errors of a symmetric mesh: each node becomes the exact image of one
+// representative. The symmetries x -> -x, z -> -z and the exchange of x and z are found first,
+// about a vertical axis through the centre; those the mesh does not have are left out.
 void make_symmetric(Mesh& mesh, const Vec3& centre) {
   const double unit = 1e-7 * size(mesh);
   std::vector<Vec3> from_centre;

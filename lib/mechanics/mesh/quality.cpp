@@ -17,6 +17,7 @@ namespace langer {
 
 namespace {
 
+// The isoparametric map at rest: X = sum of N_a(xi) X_a.
 Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
   Vec3 x = Vec3::Zero();
   const auto nodes = mesh.cell(cell);
@@ -27,6 +28,8 @@ Vec3 position(const Mesh& mesh, int cell, const Vec3& xi) {
 
 }  // namespace
 
+// J = dX / dxi [mm]. Its determinant is the volume per reference volume, and a value that is not
+// positive means that the cell is folded there.
 Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
   const auto nodes = mesh.cell(cell);
   const Gradients dN = mesh.cell().gradient(xi);
@@ -37,6 +40,7 @@ Mat3 jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
 
 namespace {
 
+// By the quadrature of the cells, exact as far as their stiffness needs it.
 double volume(const Mesh& mesh) {
   const ReferenceCell& cell = mesh.cell();
   double volume = 0;
@@ -46,6 +50,9 @@ double volume(const Mesh& mesh) {
   return volume;
 }
 
+// Extremes over all cells. The Jacobian is examined at the nodes and at the Gauss points: a curved
+// cell may be folded at a node only. In a section (a plane or axisymmetric body, one cell deep) the
+// edges along the depth are left out, as their length is a convention.
 Quality shapes(const Mesh& mesh, bool of_section) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Quality q;
@@ -62,6 +69,8 @@ Quality shapes(const Mesh& mesh, bool of_section) {
     for (int a = 0; a < cell.n_nodes; ++a) {
       const Mat3 J = jacobian(mesh, e, cell.node[a]);
       notice(J.determinant(), e, cell.node[a]);
+      // The scaled Jacobian is det J over the product of its column lengths: 1 in a box, 0 in a
+      // flat corner. It is defined at corners; nodes on edges have no angle.
       if (a >= cell.n_corners) continue;
       const double lengths = J.colwise().norm().prod();  // 0 where two nodes are at one place
       q.least_scaled_jacobian =
@@ -89,6 +98,9 @@ Quality shapes(const Mesh& mesh, bool of_section) {
 
 }  // namespace
 
+// The thin wedge of an axisymmetric section would give tiny Jacobians and long aspects. Its shape
+// is judged on a plate of constant depth, its volume on the wedge times the number of wedges in the
+// circle.
 Quality quality(const Mesh& mesh) {
   if (!mesh.section) return shapes(mesh, false);
   Quality q = shapes(as_plate(mesh), true);
@@ -96,11 +108,14 @@ Quality quality(const Mesh& mesh) {
   return q;
 }
 
+// The first pair of nodes that are closer than a distance, in linear time: nodes are entered in a
+// grid, and each is compared with the nodes of the boxes that its surroundings touch.
 std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double closer_than) {
   if (mesh.section) return coincident_nodes(as_plate(mesh), closer_than);
   const double edge =
       16 * closer_than;  // of the cells of a grid; a node near a border belongs to both sides of it
   using Cell = std::array<std::int64_t, 3>;
+  // Products with large primes spread neighbouring boxes. A collision only adds a comparison.
   const auto hash = [](const Cell& c) {
     return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
   };
@@ -128,6 +143,7 @@ std::optional<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double clos
   return std::nullopt;
 }
 
+// A folded cell has no valid deformation: the message names the key of the scene that made it.
 void refuse_folded(const Quality& q, const std::string& key) {
   if (q.least_jacobian > 0) return;
   throw Failure(

@@ -13,6 +13,7 @@ namespace langer {
 
 namespace {
 
+// Of the diagonal of the mesh: nodes that a mesher placed on a plane are there up to rounding.
 constexpr double relative_tolerance = 1e-9;
 
 int index(const std::string& axis) {
@@ -24,6 +25,7 @@ Vec3 vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace
 
+// The diagonal of the bounding box [mm], the scale of all tolerances of length.
 double size(const Mesh& mesh) { return bounding_box(mesh.X).size().norm(); }
 
 std::vector<int> all_nodes(const Mesh& mesh) {
@@ -34,6 +36,8 @@ std::vector<int> all_nodes(const Mesh& mesh) {
 
 namespace {
 
+// Among nodes at the same distance the first is chosen, up to the tolerance, so that rounding does
+// not decide between images of a symmetric mesh. No node at all gives an empty set.
 std::vector<int> nearest_node(const Mesh& mesh, const NearestNode& nearest,
                               const std::vector<int>& among) {
   const Vec3 to = vector(nearest.to);
@@ -53,11 +57,13 @@ bool holds(const OnPlane& plane, const Vec3& x, double tolerance) {
   return std::abs(x[index(plane.axis)] - plane.at) <= tolerance;
 }
 
+// The faces of the box belong to it.
 bool holds(const InBox& box, const Vec3& x, double tolerance) {
   return ((x - vector(box.from)).array() >= -tolerance).all() &&
          ((vector(box.to) - x).array() >= -tolerance).all();
 }
 
+// The distance from the axis, without limits along it. "beyond" is the inner radius of a tube.
 bool holds(const InCylinder& cylinder, const Vec3& x, double tolerance) {
   Vec3 across = x - vector(cylinder.through);
   across[index(cylinder.axis)] = 0;
@@ -67,6 +73,8 @@ bool holds(const InCylinder& cylinder, const Vec3& x, double tolerance) {
 
 }  // namespace
 
+// The nodes of "among" that a selection of the scene holds. The nearest node depends on all of them
+// and is found apart; the other kinds are decided node by node.
 std::vector<int> select(const Mesh& mesh, const Selection& selection,
                         const std::vector<int>& among) {
   if (const NearestNode* nearest = std::get_if<NearestNode>(&selection))
@@ -86,6 +94,8 @@ std::vector<int> select(const Mesh& mesh, const Selection& selection,
   return chosen;
 }
 
+// A facet inside the body belongs to two cells and is found twice under the same sorted nodes. What
+// is found once is on the boundary. The result is in the order of the cells.
 std::vector<Facet> boundary(const Mesh& mesh) {
   std::map<std::array<int, 4>, std::vector<Facet>> by_nodes;
   for (int e = 0; e < mesh.n_cells(); ++e)
@@ -113,6 +123,7 @@ std::vector<Facet> boundary(const Mesh& mesh) {
   return outer;
 }
 
+// A facet belongs to a set of nodes when all its nodes do. The nodes must ascend.
 std::vector<Facet> facets_within(const Mesh& mesh, const std::vector<Facet>& facets,
                                  const std::vector<int>& nodes) {
   std::vector<Facet> chosen;
@@ -129,6 +140,9 @@ std::vector<std::string> side_names() {
   return {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "bottom", "top"};
 }
 
+// The six sides of the bounding box, as sets of nodes and of facets. y is upwards: "bottom" and
+// "top" are other names for y_min and y_max. On a curved body a side has only the nodes that touch
+// the box.
 void name_sides(Mesh& mesh) {
   const BoundingBox b = bounding_box(mesh.X);
   const std::vector<Facet> outer = boundary(mesh);

@@ -27,6 +27,9 @@ double rounding(const VecX& x) {
 
 }  // namespace
 
+// Contact between two surfaces of deformable bodies, from their facets of four corners. Conditions
+// are imposed at the nodes of the own side. The reach limits the search for overlaps to three times
+// the longest edge at rest [mm].
 SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& mesh,
                                const std::vector<Facet>& own, const std::vector<Facet>& other) {
   SurfaceContact contact;
@@ -52,6 +55,8 @@ SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& m
   return contact;
 }
 
+// The weighted difference of the two sides: the own side has positive weights, the other negative
+// ones. Of displacements it is the relative motion at this node.
 Vec3 MortarNode::average(const VecX& u) const {
   Vec3 sum = Vec3::Zero();
   for (const auto* side : {&own, &other})
@@ -59,6 +64,9 @@ Vec3 MortarNode::average(const VecX& u) const {
   return sum;
 }
 
+// A normal at each own node: the mean of the facets around it, weighted with their areas. Half the
+// cross product of the diagonals is the area vector of a facet of four corners, plane or not. The
+// minus sign turns it into the body.
 std::vector<Vec3> mortar_normals(const SurfaceContact& contact, const VecX& x) {
   std::map<int, Vec3> sum;
   for (const QuadNodes& f : contact.own) {
@@ -76,6 +84,8 @@ std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact, const VecX& 
   return mortar_nodes(contact, mortar_facets(contact, x, false), x);
 }
 
+// Gathers the integrals of the facets at the own nodes and divides them by the area of the node, so
+// that weights have no unit. A node whose facets overlap nothing has no area, and no condition.
 std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact,
                                      const std::vector<MortarFacet>& facets, const VecX& x) {
   struct Sums {
@@ -147,6 +157,7 @@ std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
   return forces;
 }
 
+// Adds the nodal forces of the reactions [N]. A node without a reaction is open and adds nothing.
 void add_mortar_forces(const std::vector<MortarNode>& nodes, const VecX& x,
                        const std::vector<Vec3>& reactions, VecX& f) {
   for (const MortarNode& node : nodes) {
@@ -157,6 +168,10 @@ void add_mortar_forces(const std::vector<MortarNode>& nodes, const VecX& x,
   }
 }
 
+// How far a state is from a solution of the contact problem, node by node. Open nodes must not
+// penetrate, closed nodes must have no gap. Reactions must be inside the friction cone |r_t| <= mu
+// r_n, with r_n >= 0. The products of gap and reaction, and of slip and distance to the cone, must
+// be zero. These are made relative by the largest reaction and the largest motion.
 ContactDefect mortar_defect(const SurfaceContact& contact, const std::vector<MortarNode>& nodes,
                             const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions,
                             double motion) {
@@ -183,12 +198,15 @@ ContactDefect mortar_defect(const SurfaceContact& contact, const std::vector<Mor
     const double r_n = r.dot(n);
     const double r_t = (r - r_n * n).norm();
     double seen = 0;
+    // A gap below the rounding of the positions is no gap: with a large reaction it would otherwise
+    // seem to do work.
     if (std::abs(g) > rounding(x)) seen = g;
     defect.cone = std::max({defect.cone, (r_t - contact.mu * r_n) / largest, -r_n / largest});
     double power = r_n * seen;
     if (contact.mu > 0) power = r.dot(slip) + r_n * (seen + contact.mu * slip.norm());
     defect.complementarity =
         std::max(defect.complementarity, std::abs(power) / std::max(largest * motion, tiny));
+    // A reaction strictly inside the cone means that the node sticks; on the cone it slips.
     const bool sticks = contact.mu > 0 && r_t < contact.mu * r_n * (1 - 1e-9);
     defect.status[i] = sticks ? ContactStatus::stick : ContactStatus::slip;
     defect.force += r;
