@@ -44,6 +44,7 @@ struct Individual {
   double rho = 0;  // along each curve
 };
 
+// Stresses of 0 in the undeformed state. They are exact, so they say nothing of the noise.
 std::vector<bool> zeros_at_rest(const std::vector<Test>& tests) {
   std::vector<bool> all;
   for (const Test& test : tests) {
@@ -344,6 +345,8 @@ struct First {
   std::vector<VecX> fits;  // of each specimen; empty where it has no optimum
 };
 
+// Fits one material to the mean of all specimens' curves. It is biased where curves are not linear
+// in the parameters, but it is close enough to begin with.
 FitResult fit_of_mean_curves(const Population& all) {
   FitProblem problem = all.individuals_.front().problem;
   std::vector<std::vector<Test>> tests;
@@ -359,6 +362,8 @@ FitResult fit_of_mean_curves(const Population& all) {
   return fit(problem, {config.searches(), static_cast<unsigned>(config.seed), {}});
 }
 
+// Begins with the mean curve, then fits each specimen alone. The mean and the scatter of these fits
+// are the first estimate of the mixed model.
 First first_estimates(Population& all) {
   First first;
   const FitResult mean = fit_of_mean_curves(all);
@@ -461,6 +466,7 @@ std::vector<Eigen::Index> all_columns(const Population& all) {
   return columns;
 }
 
+// Akaike's criterion; the numbers of the noise model count as parameters.
 double akaike(const MixedResult& result) {
   return result.minus_two_log_likelihood + 2 * result.likelihood_parameters;
 }
@@ -498,6 +504,7 @@ MixedResult estimate(Population& all, const MixedState& start, NoiseModel& noise
   return best;
 }
 
+// The limits of a 95 % interval.
 struct Range95 {
   double low = not_known, high = not_known;
 };
@@ -508,11 +515,15 @@ struct NumberSummary {
   Range95 of_median, of_cv, of_new;
 };
 
+// Coefficient of variation between specimens: exact for a lognormal parameter, sqrt(exp(sd^2) - 1),
+// and to first order for other links.
 double cv_of(const Link& link, double phi, double deviation) {
   if (link.kind == LinkKind::log) return std::sqrt(std::expm1(deviation * deviation));
   return std::abs(link.slope(phi)) * deviation / std::abs(link.backward(phi));
 }
 
+// Median, scatter and their intervals of one parameter. Intervals are symmetric on the scale of the
+// link, so that a modulus never becomes negative. `of_new` is for a specimen that was not measured.
 NumberSummary summary_of(const Population& all, const MixedResult& result, Eigen::Index j) {
   NumberSummary s;
   const Link& link = all.links_[static_cast<std::size_t>(j)];
@@ -578,6 +589,8 @@ RecordTable population_table(const Population& all, const First& first, const Mi
   return table;
 }
 
+// Correlations between parameters with intervals by Fisher's transformation, which keeps them
+// between -1 and 1.
 std::string correlation_csv(const Population& all, const MixedResult& result) {
   std::string text = "parameter,other,correlation,lower_95,upper_95\n";
   const double factor = student_95(std::max(2., static_cast<double>(all.size()) - 2));
@@ -607,10 +620,12 @@ double distance(const MixedResult& result, std::size_t i) {
   return b.dot(LeastNorm(C(kept, kept), 1e-8).solve(b));
 }
 
+// How far a specimen is from the population, how probable that is, and how well it is fitted.
 struct SpecimenRow {
   double distance = 0, probability = 1, misfit = 0;
 };
 
+// The squared distance of a specimen has a chi-square distribution if it belongs to the population.
 std::vector<SpecimenRow> specimen_rows(Population& all, const MixedResult& result) {
   std::vector<SpecimenRow> rows;
   const auto r = static_cast<double>(all.varying());

@@ -16,6 +16,9 @@ namespace langer {
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
   if (unit == "m/s") return name + "_m_s";
+  // Energies of motion are called so in the tables of other programs.
+  const bool of_motion = name == "kinetic_energy" || name == "energy_balance";
+  if (unit == "N mm" && of_motion) return name + "_Nmm";
   std::string rest = unit;
   std::string word;
   if (rest.starts_with("1/")) {
