@@ -13,6 +13,9 @@
 
 namespace langer {
 
+// The name of a CSV column with its unit as a part of it, so that a table explains itself and the
+// name is an identifier in every language: N/mm becomes _N_per_mm, a blank an underscore. Columns
+// without a unit keep their name.
 std::string csv_name(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "-") return name;
   if (unit == "m/s") return name + "_m_s";
