@@ -16,6 +16,7 @@ namespace {
 
 using Find = std::function<Place(const std::string&)>;
 
+// The value of a key, which is added where it is missing; its place is that of the map.
 Tree& entry(Tree& tree, const std::string& key, Tree::Kind kind) {
   tree.kind = Tree::Kind::map;
   for (Tree::Entry& e : tree.map)
@@ -46,6 +47,7 @@ void append_list(const std::string& body, const std::vector<Item>& items, const 
 
 }  // namespace
 
+// Whether two surfaces of the mesh touch each other, rather than an indenter.
 bool has_deformable_contact(const SolveConfig& config) {
   return std::any_of(config.contacts.begin(), config.contacts.end(),
                      [](const auto& contact) { return contact.second.deformable(); });
@@ -81,6 +83,8 @@ void expand_bodies(SolveConfig& config, Tree& tree) {
   config.homogeneous = Homogeneous::off;
 }
 
+// Nodes and elements of one body follow those of the body before it, and so do their numbers in
+// sets and connectivity. A body without layers becomes one layer with its own name.
 Mesh joined(const std::vector<std::pair<std::string, Mesh>>& bodies) {
   Mesh all;
   all.type = bodies.front().second.type;
