@@ -140,6 +140,7 @@ void Run::resume_all() {
   if (shared_by() && share(*shared_by(), resumed_, statics.accepted()) && !shared_by()->first()) {
     increment_ = resumed_->increment;
     statics.restore(resumed_->now, &resumed_->before);
+    t_ = resumed_->now.t;
   }
   resumed_.reset();
 }
