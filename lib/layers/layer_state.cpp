@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/tensor/kinematics.hpp"
+#include "core/tensor/push_forward.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/material/existence.hpp"
 
@@ -14,25 +15,6 @@ namespace langer {
 namespace {
 
 constexpr int voigt_of[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-
-// F F F F D / J, components in the order of voigt.hpp
-Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
-  Mat6 T;
-  for (int p = 0; p < 6; ++p) {
-    for (int q = 0; q < 6; ++q) {
-      const int i = voigt_i[p];
-      const int j = voigt_j[p];
-      const int k = voigt_i[q];
-      const int l = voigt_j[q];
-      if (k == l) {
-        T(p, q) = F(i, k) * F(j, k);
-      } else {
-        T(p, q) = F(i, k) * F(j, l) + F(i, l) * F(j, k);
-      }
-    }
-  }
-  return T * D * T.transpose() / J;
-}
 
 // c of symmetric strains as moduli of all displacement gradients
 Moduli of_gradients(const Mat6& c) {
