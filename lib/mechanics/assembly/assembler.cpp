@@ -194,22 +194,24 @@ void Assembler::add_loads(const VecX& u, bool with_tangent, const VecX* du_presc
     return body_.displacements(u, e);
   };
   const auto add = [&](int e, const ElementNodes& force, const MatX* stiffness) {
-    const auto nodes = body_.nodes(e);
-    for (int a = 0; a < body_.n_nodes(); ++a) {
-      body_.add_force(f_ext_, nodes[a], e, force.row(a).transpose());
-    }
+    add_forces(e, force, f_ext_);
     if (stiffness) add_load_stiffness(e, *stiffness, du_prescribed);
   };
   loads_.each(t_loads_, displacements, with_tangent, add);
 }
 
+// Adds the nodal forces of an element (nodes, 3) to those of the body.
+void Assembler::add_forces(int e, const ElementNodes& force, VecX& to) const {
+  const auto nodes = body_.nodes(e);
+  for (int a = 0; a < body_.n_nodes(); ++a) {
+    body_.add_force(to, nodes[a], e, force.row(a).transpose());
+  }
+}
+
 VecX Assembler::unit_pressure(int volume, const VecX& u) const {
   VecX out = VecX::Zero(body_.dofs().n);
   const auto add = [&](int e, const ElementNodes& force, const MatX*) {
-    const auto nodes = body_.nodes(e);
-    for (int a = 0; a < body_.n_nodes(); ++a) {
-      body_.add_force(out, nodes[a], e, force.row(a).transpose());
-    }
+    add_forces(e, force, out);
   };
   const auto displacements = [&](int e) {
     return body_.displacements(u, e);
@@ -225,10 +227,7 @@ double Assembler::swept_volume(int volume, const VecX& u) const {
 VecX Assembler::load_forces(double t, const VecX& u) const {
   VecX out = VecX::Zero(body_.dofs().n);
   const auto add = [&](int e, const ElementNodes& force, const MatX*) {
-    const auto nodes = body_.nodes(e);
-    for (int a = 0; a < body_.n_nodes(); ++a) {
-      body_.add_force(out, nodes[a], e, force.row(a).transpose());
-    }
+    add_forces(e, force, out);
   };
   const auto displacements = [&](int e) {
     return body_.displacements(u, e);

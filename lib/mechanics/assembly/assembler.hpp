@@ -161,6 +161,7 @@ class Assembler {
   double rounding_error(int e, const VecX& u) const;
   void add_prescribed_effect(int e, const PacketElement& element, int lane, const VecX& du);
   void add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed);
+  void add_forces(int e, const ElementNodes& force, VecX& to) const;
   void add_load_stiffness(int e, const MatX& stiffness, const VecX* du_prescribed);
   void sum_over_ranks(bool with_tangent);
   VecX loads_times(const VecX& u, const VecX& v) const;

@@ -75,10 +75,7 @@ VecX Assembler::skew_pressures(const VecX& u, const VecX& du) const {
     };
   };
   const auto add = [&](int e, const ElementNodes& change) {
-    const auto nodes = body_.nodes(e);
-    for (int a = 0; a < body_.n_nodes(); ++a) {
-      body_.add_force(out, nodes[a], e, change.row(a).transpose());
-    }
+    add_forces(e, change, out);
   };
   loads_.each_skew(t_loads_, displacements_of(u), displacements_of(du), add);
   return out;
