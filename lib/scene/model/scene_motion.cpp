@@ -5,30 +5,12 @@
 #include <algorithm>
 
 #include "core/base/text.hpp"
+#include "core/config/member.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 
 namespace langer {
 
 namespace {
-
-void add_densities(InertiaOptions& motion, const DynamicsConfig& dynamics, const Mesh& mesh,
-                   const std::function<Place(const std::string&)>& where,
-                   std::vector<Error>& errors) {
-  motion.density.assign(std::max<std::size_t>(1, mesh.bodies.size()),
-                        dynamics.density_kg_m3 * tonne_per_mm3);
-  for (const auto& [name, density] : dynamics.densities_kg_m3) {
-    const auto found = std::find(mesh.bodies.begin(), mesh.bodies.end(), name);
-    if (found == mesh.bodies.end()) {
-      std::string list;
-      for (const std::string& body : mesh.bodies) append(list, ", ", body);
-      const std::string key = "dynamics.densities_kg_m3." + name;
-      errors.push_back({where(key), key, fmt::format("found \"{}\"", name),
-                        "a body of the mesh: " + list, did_you_mean(nearest(name, mesh.bodies))});
-      continue;
-    }
-    motion.density[static_cast<std::size_t>(found - mesh.bodies.begin())] = density * tonne_per_mm3;
-  }
-}
 
 // A body all of whose nodes may touch indenters would have no mass left.
 void refuse_without_mass(const Scene& scene, const Mesh& mesh, const Place& place,
@@ -72,11 +54,30 @@ void refuse_out_of_section(const DynamicsConfig& dynamics, const Mesh& mesh,
 
 }  // namespace
 
+std::vector<double> densities(const DynamicsConfig& dynamics, const Mesh& mesh,
+                              const std::function<Place(const std::string&)>& where,
+                              std::vector<Error>& errors) {
+  std::vector<double> all(std::max<std::size_t>(1, mesh.bodies.size()),
+                          dynamics.density_kg_m3 * tonne_per_mm3);
+  for (const auto& [name, density] : dynamics.densities_kg_m3) {
+    const auto found = std::ranges::find(mesh.bodies, name);
+    if (found == mesh.bodies.end()) {
+      const std::string key = "dynamics.densities_kg_m3." + name;
+      errors.push_back({where(key), key, fmt::format("found \"{}\"", name),
+                        "a body of the mesh: " + list_words(mesh.bodies),
+                        did_you_mean(nearest(name, mesh.bodies))});
+      continue;
+    }
+    all[static_cast<std::size_t>(found - mesh.bodies.begin())] = density * tonne_per_mm3;
+  }
+  return all;
+}
+
 void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                 const std::function<Place(const std::string&)>& where, std::vector<Error>& errors) {
   const DynamicsConfig& dynamics = *config.dynamics;
   InertiaOptions motion;
-  add_densities(motion, dynamics, mesh, where, errors);
+  motion.density = densities(dynamics, mesh, where, errors);
   motion.mass = dynamics.mass;
   if (motion.mass == MassKind::lumped && mesh.cell().second_order()) {
     errors.push_back(

@@ -13,6 +13,11 @@
 
 namespace langer {
 
+// Density of each body of the mesh [t/mm3]. Errors name the key that is no body.
+std::vector<double> densities(const DynamicsConfig& dynamics, const Mesh& mesh,
+                              const std::function<Place(const std::string&)>& where,
+                              std::vector<Error>& errors);
+
 // Sets the motion of a scene whose contacts and materials are there. Errors name the key.
 void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                 const std::function<Place(const std::string&)>& where, std::vector<Error>& errors);

@@ -10,6 +10,7 @@
 #include "mechanics/assembly/mass.hpp"
 #include "mechanics/vibration/harmonic.hpp"
 #include "mechanics/vibration/modes.hpp"
+#include "scene/model/scene_motion.hpp"
 
 namespace langer {
 
@@ -158,26 +159,15 @@ HarmonicRecord harmonic_record(const SolveConfig& config, Run& run,
   return record;
 }
 
-}  // namespace
-
-std::vector<double> densities(const DynamicsConfig& config, const Mesh& mesh,
-                              const Run::Where& where) {
-  std::vector<std::string> bodies = mesh.bodies;
-  if (bodies.empty()) bodies.push_back("body");
-  for (const auto& [name, density] : config.densities_kg_m3) {
-    if (std::ranges::find(bodies, name) != bodies.end()) continue;
-    refuse(where, "dynamics.densities_kg_m3." + name, "found \"" + name + "\"",
-           "a body of the mesh: " + list_words(bodies), did_you_mean(nearest(name, bodies)));
-  }
-  std::vector<double> out;
-  for (const std::string& name : bodies) {
-    const auto own = config.densities_kg_m3.find(name);
-    double density = config.density_kg_m3;
-    if (own != config.densities_kg_m3.end()) density = own->second;
-    out.push_back(density * tonne_per_mm3);
-  }
-  return out;
+std::vector<double> checked_densities(const SolveConfig& config, const Mesh& mesh,
+                                      const Run::Where& where) {
+  std::vector<Error> errors;
+  std::vector<double> all = densities(*config.dynamics, mesh, where, errors);
+  if (!errors.empty()) throw Failure(Exit::config, errors);
+  return all;
 }
+
+}  // namespace
 
 Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& where) {
   const HarmonicConfig& harmonic = *config.harmonic;
@@ -203,14 +193,14 @@ Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& wh
 
 void check_vibration(const SolveConfig& config, const Run& run, const Run::Where& where) {
   if (!config.modes && !config.harmonic) return;
-  densities(*config.dynamics, run.mesh, where);
+  checked_densities(config, run.mesh, where);
   if (config.harmonic) driver_of(config, run, where);
 }
 
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
                                             const Run::Where& where) {
   if (!config.modes && !config.harmonic) return std::nullopt;
-  const std::vector<double> density = densities(*config.dynamics, run.mesh, where);
+  const std::vector<double> density = checked_densities(config, run.mesh, where);
   VibrationRecord record;
   try {
     if (config.modes) record.modes = modes_record(config, run, density);

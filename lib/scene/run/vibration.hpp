@@ -11,10 +11,6 @@
 
 namespace langer {
 
-// Density of each body of the mesh [t/mm3]. Throws Failure(config) where a name is no body.
-std::vector<double> densities(const DynamicsConfig& config, const Mesh& mesh,
-                              const Run::Where& where);
-
 // Driver that the config names, in terms of the body that is solved. Throws Failure(config) where
 // it is not symmetric as the scene is, or the mesh has no such set.
 Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& where);
