@@ -80,7 +80,8 @@ void set_ellipticity(LawOutcome& law) {
   }
 }
 
-LawOutcome outcome_of(const FitConfig& config, const CatalogueLaw& law) {
+// The law fitted to the tests; `failed` says why where there is no fit.
+LawOutcome fitted(const FitConfig& config, const CatalogueLaw& law) {
   LawOutcome one;
   one.name = law.name;
   one.config = config_of(config, law);
@@ -88,16 +89,18 @@ LawOutcome outcome_of(const FitConfig& config, const CatalogueLaw& law) {
   scale_starts(one.problem, secant_modulus(one.problem.tests) / catalogue_modulus);
   try {
     one.fit = fit(one.problem, {one.config.searches(), static_cast<unsigned>(config.seed), {}});
+    if (!one.fit.best.converged) one.failed = one.fit.best.why;
   } catch (const Failure& failure) {
     // more parameters than values: another law may still be fitted
     if (failure.code() != Exit::input) throw;
     one.failed = failure.errors().front().found;
-    return one;
   }
-  if (!one.fit.best.converged) {
-    one.failed = one.fit.best.why;
-    return one;
-  }
+  return one;
+}
+
+LawOutcome outcome_of(const FitConfig& config, const CatalogueLaw& law) {
+  LawOutcome one = fitted(config, law);
+  if (!one.failed.empty() || !one.fit.best.converged) return one;
   for (std::size_t i = 0; i < one.config.parameters.size(); ++i)
     one.config.parameters[i].start = one.fit.best.p[static_cast<Eigen::Index>(i)];
   const std::size_t n = one.problem.tests.size();
@@ -247,19 +250,7 @@ LawComparison discover_terms(const FitConfig& config, const LawProgress& progres
     FitConfig quick = config;
     // the first searches decide which terms stay; the laws of the front are searched in full
     quick.starts = std::min(config.searches(), 4);
-    LawOutcome one;
-    one.name = law.name;
-    one.config = config_of(quick, law);
-    one.problem = fit_problem(one.config);
-    scale_starts(one.problem, secant_modulus(one.problem.tests) / catalogue_modulus);
-    try {
-      one.fit = fit(one.problem, {one.config.searches(), static_cast<unsigned>(config.seed), {}});
-      if (!one.fit.best.converged) one.failed = one.fit.best.why;
-    } catch (const Failure& failure) {
-      if (failure.code() != Exit::input) throw;
-      one.failed = failure.errors().front().found;
-    }
-    return known.emplace(law.name, std::move(one)).first->second;
+    return known.emplace(law.name, fitted(quick, law)).first->second;
   };
   const auto score = [&](const std::vector<std::string>& chosen) {
     const LawOutcome& one = made(chosen);
