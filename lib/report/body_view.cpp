@@ -23,8 +23,6 @@ namespace {
 // Fibres drawn on the surface; more would hide each other.
 constexpr std::size_t most_glyphs = 2500;
 
-Json unchanged(const Json& j) { return j; }
-
 // A field that the page can colour the body by, with its values at the sent nodes in all states.
 struct ShownField {
   Quantity quantity;
@@ -104,12 +102,6 @@ struct Chosen {
       place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
   }
 };
-
-// An array as a JSON string in base64, which needs no escapes.
-template <class T>
-Json packed(const std::vector<T>& values) {
-  return {'"' + base64(values) + '"'};
-}
 
 // Fibres drawn on the surface. The page draws each at the middle of its facet, along
 // F a = sum_k x_k (grad N_k . a) with the eight nodes and weights of its element.
@@ -195,11 +187,11 @@ Json indenters_view(const SolutionReader& solution, const std::vector<double>& t
     shown.push_back(object({{"name", words(indenter.name)},
                             {"points", packed(points)},
                             {"triangles", packed(triangles)},
-                            {"u", list(moved, unchanged)}}));
+                            {"u", list(moved)}}));
   }
   for (const std::string& name : indenters_missing(header, indenters))
     missing.push_back(words(name));
-  return object({{"shown", list(shown, unchanged)}, {"missing", list(missing, unchanged)}});
+  return object({{"shown", list(shown)}, {"missing", list(missing)}});
 }
 
 // How much of a body fits into the budget: all nodes with the elements, or only the nodes of the
@@ -252,7 +244,7 @@ Json moves_view(const std::vector<std::vector<double>>& u, double step) {
     for (double v : state) whole_steps.push_back(static_cast<std::int16_t>(std::lround(v / step)));
     moves.push_back(packed(whole_steps));
   }
-  return list(moves, unchanged);
+  return list(moves);
 }
 
 // The fields as 16-bit integers between their smallest and largest value over all states. A field
@@ -272,7 +264,7 @@ Json fields_view(std::vector<ShownField>& fields) {
                             {"high", number(f.span.high)},
                             {"states", list(f.values, quantised_state)}}));
   }
-  return list(shown, unchanged);
+  return list(shown);
 }
 
 // The states that the page shows: path parameter, displacements of the chosen nodes, and what the
@@ -393,7 +385,7 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"n_states", number(solution.n_steps() + 1)},
                  {"X", packed(X)},
                  {"facets", packed(facets)},
-                 {"states", list(at.shown, unchanged)},
+                 {"states", list(at.shown)},
                  {"step", number(step)},
                  {"u", moves_view(at.u, step)},
                  {"fields", fields_view(fields)},

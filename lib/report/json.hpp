@@ -36,6 +36,10 @@ Json list(const auto& range, auto&& each) {
   for (const auto& item : range) append(text, ",", each(item).text);
   return {"[" + text + "]"};
 }
+// A list of values that are JSON already.
+inline Json list(const std::vector<Json>& values) {
+  return list(values, [](const Json& value) { return value; });
+}
 inline Json numbers(const std::vector<double>& values) { return list(values, number); }
 
 // A map from keys to values, in the given order.

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "report/json.hpp"
+
 namespace langer::report {
 
 inline std::string base64(const void* data, std::size_t n) {
@@ -38,6 +40,12 @@ std::string base64(const std::vector<T>& values) {
   return base64(values.data(), values.size() * sizeof(T));
 }
 
+// An array as a JSON string in base64, which needs no escapes.
+template <class T>
+Json packed(const std::vector<T>& values) {
+  return {'"' + base64(values) + '"'};
+}
+
 // Smallest and largest finite value of a field over all its states.
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -55,13 +63,13 @@ struct Span {
 inline std::vector<std::uint16_t> quantised(std::span<const double> values, const Span& span) {
   double per = 0;
   if (span.high > span.low) per = 65534 / (span.high - span.low);
-  std::vector<std::uint16_t> packed;
+  std::vector<std::uint16_t> levels;
   for (double v : values) {
     std::uint16_t level = 65535;
     if (std::isfinite(v)) level = static_cast<std::uint16_t>((v - span.low) * per + 0.5);
-    packed.push_back(level);
+    levels.push_back(level);
   }
-  return packed;
+  return levels;
 }
 
 }  // namespace langer::report

@@ -106,9 +106,6 @@ Json data_of(const ReportPage& page) {
                    {"columns", list(t.columns, column)},
                    {"rows", list(t.rows, row)}});
   };
-  const auto unchanged = [](const Json& j) {
-    return j;
-  };
   const auto origin = [](const FileOrigin& o) {
     return object({{"label", words(o.label)},
                    {"stage", words(o.stage)},
@@ -131,7 +128,7 @@ Json data_of(const ReportPage& page) {
                  {"charts", list(page.charts, chart)},
                  {"polars", list(page.polars, polar)},
                  {"tables", list(page.tables, table)},
-                 {"bodies", list(page.bodies, unchanged)},
+                 {"bodies", list(page.bodies)},
                  {"origins", list(page.origins, origin)}});
 }
 

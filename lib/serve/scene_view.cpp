@@ -38,16 +38,11 @@ using report::list;
 using report::number;
 using report::numbers;
 using report::object;
+using report::packed;
 using report::words;
 
 constexpr std::size_t most_fibres = 1500;  // drawn; more would hide each other
 constexpr std::size_t most_points = 400;   // drawn of a set
-
-template <class T>
-Json packed(const std::vector<T>& values) {
-  return {'"' + report::base64(values) + '"'};
-}
-Json unchanged(const Json& j) { return j; }
 
 // A step that solves, and what its inputs are before anything has run.
 struct SolveInputs {
@@ -162,7 +157,7 @@ Json sets_view(const Mesh& mesh, const Skin& skin) {
                            {"facets", packed(facets)},
                            {"points", packed(points)}}));
   }
-  return list(sets, unchanged);
+  return list(sets);
 }
 
 // Each indenter as triangles at its start, and its way. Under force control the way is not known.
@@ -206,7 +201,7 @@ Json fibres_view(const Scene& scene, const Mesh& mesh, const Skin& skin) {
     }
     families.push_back(object({{"at", packed(at)}, {"along", packed(along)}}));
   }
-  return list(families, unchanged);
+  return list(families);
 }
 
 Json supports_view(const SolveConfig& config) {
