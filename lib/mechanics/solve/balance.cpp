@@ -119,9 +119,9 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
     out.missing = "the force on the indenter is not the given one";
   else if (!prescribed_reached(u, du))
     out.missing = "prescribed displacements not reached";
-  else if (bordered() && !border_defect(u).empty())
+  else if (bordered())
     out.missing = border_defect(u);
-  else if (factor_.held_by_contact() && slips_away())
+  if (out.missing.empty() && factor_.held_by_contact() && slips_away())
     out.missing = "the body slips away from under the indenter, and nothing else holds it";
   out.others = out.missing.empty();
   return out;

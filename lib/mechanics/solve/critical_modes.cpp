@@ -40,10 +40,11 @@ std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<do
     F.col(j) = held[static_cast<std::size_t>(j)];
     B.col(j) = solver.solve(F.col(j));
   }
-  const MatX C = F.transpose() * B;
+  Eigen::PartialPivLU<MatX> C;
+  if (m > 0) C.compute(F.transpose() * B);
   const auto inverse = [&](const VecX& x) -> VecX {
     VecX y = solver.solve(x);
-    if (m > 0) y -= B * C.partialPivLu().solve(F.transpose() * y);
+    if (m > 0) y -= B * C.solve(F.transpose() * y);
     return y;
   };
 
