@@ -57,14 +57,7 @@ bool RunWatch::follows_states() const {
 void RunWatch::take_state(StateOnPath state) {
   if (crossing_) return;
   if (!last_) {
-    BodyState rest = state.state;
-    rest.t = 0;
-    rest.travel = 0;
-    rest.u.setZero();
-    rest.pressures.setZero();
-    for (auto& reactions : rest.r)
-      std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
-    last_ = StateOnPath{0, rest, 0};
+    last_ = StateOnPath{0, at_rest(state.state), 0};
     before_ = last_;
   }
   if (state.negative > last_->negative) {

@@ -23,6 +23,16 @@ TangentFactor timed_factor(const Assembler& body, const std::vector<RigidContact
 
 }  // namespace
 
+BodyState at_rest(BodyState shape) {
+  shape.t = 0;
+  shape.travel = 0;
+  shape.u.setZero();
+  shape.pressures.setZero();
+  for (std::vector<Vec3>& reactions : shape.r)
+    std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
+  return shape;
+}
+
 Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
                  const StaticsOptions& options, std::vector<SurfaceContact> surfaces)
     : equilibrium_(equilibrium),

@@ -47,6 +47,10 @@ struct BodyState {
   MotionState motion = {};  // empty without inertia
 };
 
+// The body before its first increment: t, travel, displacements, pressures and reactions are 0.
+// Sizes, bonds and motion are those of `shape`.
+BodyState at_rest(BodyState shape);
+
 // Signs of the eigenvalues of the constrained tangent: K less the turning of the contact reactions
 // on a curved indenter, for movements of the free dofs that keep closed contacts closed and
 // sticking ones where they are. Slipping ones may glide; what friction adds there is not symmetric

@@ -68,18 +68,7 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
 // Restores a recorded step and the one before it. Both are needed for the same continuation to the
 // last digit: the first trial state is extrapolated from them.
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
-  BodyState earlier = statics.accepted();
-  if (before) {
-    earlier = state_from(*before);
-  } else {
-    // the body at rest
-    earlier.t = 0;
-    earlier.travel = 0;
-    earlier.u.setZero();
-    earlier.pressures.setZero();
-    for (auto& reactions : earlier.r)
-      std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
-  }
+  BodyState earlier = before ? state_from(*before) : at_rest(statics.accepted());
   increment_ = last.scalars.at("next_increment");
   resumed_ = Resumed{state_from(last), std::move(earlier), *increment_};
   statics.restore(resumed_->now, &resumed_->before);
