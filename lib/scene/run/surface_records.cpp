@@ -7,6 +7,8 @@ namespace langer {
 
 void record_surfaces(const Statics& statics, StepRecord& record) {
   const auto defects = statics.surface_defects();
+  const auto& averages = statics.surface_averages();
+  const std::vector<double> penetrations = statics.surface_penetrations();
   const std::size_t first = statics.contacts().size();
   for (std::size_t s = 0; s < defects.size(); ++s) {
     const ContactDefect& defect = defects[s];
@@ -24,7 +26,7 @@ void record_surfaces(const Statics& statics, StepRecord& record) {
     record.scalars["force_" + name] = defect.force.norm();
     double area = 0;
     double pressure = 0;
-    for (const MortarNode& node : statics.surface_averages()[s]) {
+    for (const MortarNode& node : averages[s]) {
       const Vec3& r = contact.r[static_cast<std::size_t>(node.candidate)];
       if (r.isZero(0)) continue;
       area += node.area;
@@ -32,7 +34,7 @@ void record_surfaces(const Statics& statics, StepRecord& record) {
     }
     record.scalars["contact_area_" + name] = area;
     record.scalars["pressure_max_" + name] = pressure;
-    record.scalars["penetration_" + name] = statics.surface_penetrations()[s];
+    record.scalars["penetration_" + name] = penetrations[s];
   }
 }
 
