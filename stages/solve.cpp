@@ -76,7 +76,7 @@ void report_idle_ranks(const Job<SolveConfig>& job, const std::string& reason) {
 std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
   const Job<SolveConfig>& job = input.job;
   if (!job.has("mirror") || job.dry_run || !job.config.sensitivity.empty()) return std::nullopt;
-  if (job.config.dynamics || job.config.modes || job.config.harmonic) return std::nullopt;
+  if (job.config.dynamics) return std::nullopt;  // modes and harmonic need it, too
   SolveConfig config = job.config;
   if (!input.mesh_file.empty()) config.mesh.reset();  // the file replaces the config's mesh
   const MirrorTask task{config,          input.material,      job.where, job.identity,
