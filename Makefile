@@ -185,10 +185,12 @@ test-bundle: bundle
 	@$(MAKE) --no-print-directory deps packages=debootstrap
 	@tests/support/bare_system.sh $(SUITE) $(package)/langer-$(version)-linux-*.tar.gz
 
-# docs/ and what the programs tell of themselves as a site with a search: build-site/site
+# docs/ and what the programs say of themselves as a site with a search: build-site/site/VERSION. Folders of earlier versions stay there,
+# and the site has a menu of them
 site: build
 	@$(MAKE) --no-print-directory deps packages="mkdocs-material libjs-katex"
-	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer && mkdocs build -q -f share/site/mkdocs.yml
+	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer
+	@mkdocs build -q -f share/site/mkdocs.yml -d $(CURDIR)/build-site/site/$(version) && python3 share/site/versions.py build-site/site
 	@echo "site: build-site/site; its search needs a server: python3 -m http.server -d build-site/site"
 
 # the line in each config that names its schema, by which editors find it; `make build` writes the schemas to configs/schema
