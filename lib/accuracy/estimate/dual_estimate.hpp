@@ -1,6 +1,6 @@
 // Errors of a result on any mesh, weighted with the dual solution of each quantity: one
 // back-substitution with the factor of the last state each (Statics::movement), and integrals over
-// recovered fields (accuracy/energy_error.hpp).
+// recovered fields (accuracy/estimate/energy_error.hpp).
 //   force, force_<contact>   the body's answer to a movement of the indenters along the force
 //   reaction_<set>           to a movement of the set along it
 //   displacement_<point>     to a force of 1 N there, along the displacement

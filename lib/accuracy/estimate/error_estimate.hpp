@@ -25,7 +25,7 @@
 //   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25, and 2
 //               where the order is only observed;
 //   limit       found - cells - increments
-//   left out    of what a body leaves out that stands for a larger one, where the config asks (accuracy/truncation.hpp)
+//   left out    of what a body leaves out that stands for a larger one, where the config asks (accuracy/estimate/truncation.hpp)
 // For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is
 // not the length in contact radii (block, section), hex8 are taken for fine enough, and hex27 are
 // set against hex8 of half their length.
@@ -95,8 +95,8 @@ struct ErrorEstimate {
     std::string name;
     double value;
   };
-  std::vector<Part> left_out =
-      {};  // by a body that stands for a larger one (accuracy/truncation.hpp); signed, not in total
+  std::vector<Part> left_out = {};  // by a body that stands for a larger one
+                                    // (accuracy/estimate/truncation.hpp); signed, not in total
   // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not
   // follow one law leave more open than their scatter.
   double factor() const {
@@ -164,8 +164,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                           const SolvedPath& itself, double residual,
                           const EstimateListener& listener = {});
 
-// as config.estimate says (recovery: accuracy/recovered_path.hpp), of the last state of its run and
-// of the forces on its path
+// as config.estimate says (recovery: accuracy/estimate/recovered_path.hpp), of the last state of
+// its run and of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
                      const std::function<Place(const std::string&)>& where, Run& run,
                      const StepRecord& last, const std::vector<StepForces>& path,

@@ -37,7 +37,7 @@ class RecoveredPath {
   bool wanted() const { return body_ != nullptr; }
   Observer beside(Observer observer);
   // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be
-  // trusted. resolved: contact is, by the cells (watch/contact_watch.hpp)
+  // trusted. resolved: contact is, by the cells (accuracy/checks/contact_watch.hpp)
   PathErrors errors(const StepRecord& last, const std::vector<Valued>& found,
                     bool resolved = true) const;
 

@@ -18,7 +18,8 @@ namespace langer {
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order);
 
 // Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose
-// errors are known by cells, and nothing that hanging nodes do not know (scene/hanging.hpp).
+// errors are known by cells, and nothing that hanging nodes do not know
+// (scene/model/hanging_constraints.hpp).
 std::string reason_not_refinable(const SolveConfig& config);
 std::string reason_not_refinable(const Mesh& mesh);
 
