@@ -1,4 +1,4 @@
-// What each cell has of an error bar: the parts by which cells are cut
+// The part that each cell has in an error bar. Cells with large parts are cut
 // (accuracy/refinement/adaptive_cells.hpp).
 #pragma once
 

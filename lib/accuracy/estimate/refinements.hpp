@@ -1,5 +1,5 @@
-// The scenes that an estimate by refinement solves beside the one that it judges: which meshes,
-// which increments.
+// The scenes that an estimate by refinement solves in addition to the one that it judges: which
+// meshes and which increments (accuracy/estimate/error_estimate.hpp).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The estimate of a solve's errors, made and told where its config asks for one.
+// Makes the error estimate of a run if its config asks for one, and prints it.
 #pragma once
 
 #include <optional>
