@@ -1,5 +1,10 @@
 # Measurements whose tables and pictures stand in docs/; included by the Makefile, which sets $(build), $(programs), $(packages).
 
+# the command behind each table of measured numbers in docs/; a test asks for it, too
+.PHONY: measure
+measure:
+	@python3 tests/style/tables_are_measured.py .
+
 # both, and their tables into the page
 reliability: soak fuzz
 	@tests/soak/page docs/tested.md kills $(build)/soak.md
