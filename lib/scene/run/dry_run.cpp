@@ -15,6 +15,14 @@
 
 namespace langer {
 
+namespace {
+
+std::string friction_in_words(double mu) {
+  return mu > 0 ? fmt::format("friction {:g}", mu) : "no friction";
+}
+
+}  // namespace
+
 std::string memory_in_words(double bytes) {
   if (bytes < 1e9) return fmt::format("{:.0f} MB", 1e-6 * bytes);
   return fmt::format("{:.1f} GB", 1e-9 * bytes);
@@ -121,15 +129,12 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
                                   memory_in_words(body.viscous_points()->bytes())));
     if (scene.contacts.empty() && scene.surfaces.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts) {
-      std::string friction = "no friction";
-      if (c.mu > 0) friction = fmt::format("friction {:g}", c.mu);
-      line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(), friction));
+      line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(),
+                                  friction_in_words(c.mu)));
     }
     for (const SurfaceContact& c : scene.surfaces) {
-      std::string friction = "no friction";
-      if (c.mu > 0) friction = fmt::format("friction {:g}", c.mu);
       line("contact", fmt::format("{}: {} candidate nodes against {} facets, {}", c.name,
-                                  c.nodes.size(), c.other.size(), friction));
+                                  c.nodes.size(), c.other.size(), friction_in_words(c.mu)));
     }
     if (!scene.contacts.empty())
       line("",
