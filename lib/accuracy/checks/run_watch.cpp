@@ -68,8 +68,15 @@ void RunWatch::take_state(StateOnPath state) {
   last_ = std::move(state);
 }
 
+// Whether the scene itself turns around there: at a kink of a given history.
+bool RunWatch::kink_between(double from, double to) const {
+  const std::vector<double>& kinks = run_.scene.stops;
+  return std::any_of(kinks.begin(), kinks.end(), [&](double t) { return from < t && t < to; });
+}
+
 // An extremum lies between the first and the last of three steps if the one between them is the
-// greatest or the least: that of the parabola through them.
+// greatest or the least: that of the parabola through them. Where a given history has a kink, the
+// extremum is that of the history and no limit point.
 void RunWatch::take_turning(const StepRecord& record) {
   for (const auto& [name, value] : record.scalars) {
     if (name != "load_factor" && !name.starts_with("load_pressure")) continue;
@@ -80,7 +87,7 @@ void RunWatch::take_turning(const StepRecord& record) {
       const Sample b = known[1];
       const double left = (b.value - a.value) / (b.t - a.t);
       const double right = (value - b.value) / (record.t - b.t);
-      if (left * right < 0) {
+      if (left * right < 0 && !kink_between(a.t, record.t)) {
         const double curvature = (right - left) / (record.t - a.t);
         const double slope = left + curvature * (b.t - a.t);
         const double t = b.t - 0.5 * slope / curvature;

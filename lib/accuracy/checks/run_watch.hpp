@@ -60,6 +60,7 @@ class RunWatch {
   bool follows_states() const;
   void take_state(StateOnPath state);
   void take_turning(const StepRecord& record);
+  bool kink_between(double from, double to) const;
 
   Run& run_;
   StabilityCheck when_;

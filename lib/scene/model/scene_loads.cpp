@@ -39,6 +39,23 @@ bool is_held(const SolveConfig& config, const Mesh& mesh, const std::string& set
   return left.empty();
 }
 
+// Whether some facet of the set can move along its normal: only that changes the volume above it.
+bool can_enclose(const SolveConfig& config, const Mesh& mesh, const std::string& set,
+                 const std::vector<Facet>& facets) {
+  const int axes = mesh.section ? 2 : 3;
+  for (int axis = 0; axis < axes; ++axis) {
+    if (is_held(config, mesh, set, axis)) continue;
+    for (const Facet& facet : facets) {
+      for (const std::array<int, 4>& quad : facet_quads(mesh, facet)) {
+        const Vec3 normal =
+            (mesh.X[quad[2]] - mesh.X[quad[0]]).cross(mesh.X[quad[3]] - mesh.X[quad[1]]);
+        if (std::abs(normal[axis]) > 1e-9 * normal.norm()) return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool has_direction(const Section& section, int axis) {
   return axis == 1 || (axis == 0 && section.of == SectionOf::plane_strain);
 }
@@ -72,6 +89,12 @@ std::vector<SurfaceLoad> surface_loads(const SolveConfig& config, const Mesh& me
       continue;
     }
     if (load.volume) {
+      if (!can_enclose(config, mesh, load.on, facets)) {
+        refuse(key + ".on",
+               fmt::format("found \"{}\", which is held along its normal everywhere", load.on),
+               "a face that can move", "the volume above a face that is held cannot change");
+        continue;
+      }
       const History v = history_of(*load.volume, config.path.seconds);
       loads.push_back({facets, Vec3::Zero(), 0, v.factor, v.value, load.on});
       continue;
