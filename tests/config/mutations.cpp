@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "identification/setup/fit_config_io.hpp"
+#include "layers/layers_config.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/expand.hpp"
 #include "scene/model/make_mesh.hpp"
@@ -95,9 +96,9 @@ Must must_where_misspelt(const Spot& spot) {
   std::string parent =
       spot.path.substr(0, std::max(spot.path.size(), spot.key.size() + 1) - spot.key.size() - 1);
   parent = parent.substr(parent.rfind('.') + 1);
-  static const std::set<std::string> of_names{"sets",    "points",   "maps",      "renders",
-                                              "figures", "contacts", "materials", "summary_at",
-                                              "nodes",   "sweep",    "variants"};
+  static const std::set<std::string> of_names{"sets",       "points",   "maps",    "renders",
+                                              "figures",    "contacts", "compare", "materials",
+                                              "summary_at", "nodes",    "sweep",   "variants"};
   if (of_names.count(parent)) return Must::not_crash;
   // beside the one that an included file gives, a misspelt alternative is a second one: said of the
   // whole choice
@@ -281,6 +282,20 @@ TEST_CASE("mutations of the shipped configs of mesh with the mesh made") {
         tally);
   }
   report("meshes", tally);
+}
+
+TEST_CASE("mutations of the shipped configs of layers with the layers made") {
+  Tally tally;
+  for (const fs::path& path : yaml_files("configs/layers")) {
+    run(
+        path,
+        [&](Tree tree) {
+          const auto loaded = read_config<LayersConfig>(std::move(tree));
+          layers_at_rest(loaded.config, {}, loaded.where);
+        },
+        tally);
+  }
+  report("layers", tally);
 }
 
 // in few enough cells for thousands of scenes, where the geometry has as few
