@@ -246,6 +246,21 @@ TEST_CASE("a body that only friction holds is found between two others") {
         loose.npos);
 }
 
+TEST_CASE("nodes with nothing opposite have a gap of the reach of the search") {
+  const BodiesScene scene =
+      bodies_scene("bodies:\n  skin: " + block("[0, 0, 0]", "[2, 1, 2]", "[2, 1, 2]", soft) +
+                   "\n  pad: " + block("[5, 1, 0]", "[2, 1, 2]", "[3, 1, 3]", soft) +
+                   "\nsupports: [{on: skin_bottom, hold: [x, y, z]}]\n"
+                   "loads: [{on: pad_top, displacement: {x: 0, y: -0.1, z: 0}}]\n"
+                   "contacts:\n  pad: {on: pad_bottom, against: skin_top}\n");
+  double reach = 0;
+  const BodiesSolution found = solved(
+      scene, [&](const Run& run, const StepRecord&) { reach = run.statics.surfaces()[0].reach; });
+  const std::vector<double>& gaps = found.last().contacts.at("pad").gap;
+  CHECK(gaps == std::vector<double>(16, reach));
+  CHECK(found.last().scalars.at("force_pad") == 0);
+}
+
 TEST_CASE("bodies that overlap at the start, and sets that cover no facet, are refused") {
   const auto scene = [](const std::string& origin, const std::string& on) {
     return "bodies:\n"

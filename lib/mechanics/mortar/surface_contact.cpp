@@ -177,7 +177,8 @@ ContactDefect mortar_defect(const SurfaceContact& contact, const std::vector<Mor
                             double motion) {
   ContactDefect defect;
   defect.status.assign(contact.nodes.size(), ContactStatus::open);
-  defect.gap.assign(contact.nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  // A node with nothing opposite is further away than the search reaches.
+  defect.gap.assign(contact.nodes.size(), contact.reach);
   const VecX moved = x - x0;
   double largest = 0;
   for (const Vec3& r : reactions) largest = std::max(largest, r.norm());

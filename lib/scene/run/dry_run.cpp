@@ -119,11 +119,17 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
     if (body.viscous())
       line("viscous", fmt::format("branch stresses at the Gauss points take {} of the memory",
                                   memory_in_words(body.viscous_points()->bytes())));
-    if (scene.contacts.empty()) line("contact", "off, not in the scene");
+    if (scene.contacts.empty() && scene.surfaces.empty()) line("contact", "off, not in the scene");
     for (const RigidContact& c : scene.contacts) {
       std::string friction = "no friction";
       if (c.mu > 0) friction = fmt::format("friction {:g}", c.mu);
       line("contact", fmt::format("{}: {} candidate nodes, {}", c.name, c.nodes.size(), friction));
+    }
+    for (const SurfaceContact& c : scene.surfaces) {
+      std::string friction = "no friction";
+      if (c.mu > 0) friction = fmt::format("friction {:g}", c.mu);
+      line("contact", fmt::format("{}: {} candidate nodes against {} facets, {}", c.name,
+                                  c.nodes.size(), c.other.size(), friction));
     }
     if (!scene.contacts.empty())
       line("",
