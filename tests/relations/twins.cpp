@@ -277,7 +277,7 @@ std::vector<std::string> differences(const Answer& scene, const Answer& twin, co
   force.report(tolerance, lines);
   // A torque that is zero without friction consists of rounding alone: it is then compared with a
   // small share of the energy, which has the same unit.
-  constexpr double share = 1e-6;
+  constexpr double share = 1e-3;
   const double energy = histories.front().largest();
   for (Compared& history : histories) {
     if (history.name().starts_with("torque")) {
