@@ -109,7 +109,7 @@ relations: configure
 
 # every reader under libFuzzer, ASan and UBSan, for FUZZ_SECONDS each; needs clang and libclang-rt-dev
 FUZZ_SECONDS ?= 60
-FUZZ_TARGETS ?= yaml csv mesh hdf5 pipeline inp msh gmsh_answer stl scene
+FUZZ_TARGETS ?= yaml csv mesh hdf5 pipeline inp msh gmsh_answer stl scene layers edit served
 fuzz:
 	@command -v clang++ >/dev/null || { echo "make fuzz needs clang and libclang-rt-dev"; exit 1; }
 	@[ -f build-fuzz/CMakeCache.txt ] || cmake -S tests/fuzz -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
