@@ -48,7 +48,7 @@ configure: deps
 	@[ -f $(build)/CMakeCache.txt ] || cmake -S . -B $(build) -G Ninja -DCMAKE_BUILD_TYPE=Release $(options)
 
 build: configure
-	@cmake --build $(build) --parallel $(JOBS) --target $(programs)
+	@cmake --build $(build) --parallel $(JOBS) --target $(programs) schemas
 
 # what went wrong is said last, and by us: a recipe that fails would leave the last word to make
 stopped = $(if $(shell cat $(build)/stopped 2>/dev/null),$(error $(1))):
@@ -159,6 +159,7 @@ PREFIX ?= /usr/local
 package := build-package
 version := $(shell awk '/^project/ { print $$3 }' CMakeLists.txt)
 packaged: deps
+	@$(MAKE) --no-print-directory deps packages=help2man || echo "without help2man there will be no man pages"
 	@cmake -S . -B $(package) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLANGER_NATIVE=OFF -DLANGER_TESTS=OFF > $(package).log || { cat $(package).log; exit 1; }
 	@mv $(package).log $(package)/configured.log
 	@cmake --build $(package) --parallel $(JOBS)
@@ -184,17 +185,17 @@ test-bundle: bundle
 	@$(MAKE) --no-print-directory deps packages=debootstrap
 	@tests/support/bare_system.sh $(SUITE) $(package)/langer-$(version)-linux-*.tar.gz
 
-# docs/ and what the programs tell of themselves as a site with a search: build-site/site
+# docs/ and what the programs say of themselves as a site with a search: build-site/site/VERSION. Folders of earlier versions stay there,
+# and the site has a menu of them
 site: build
 	@$(MAKE) --no-print-directory deps packages="mkdocs-material libjs-katex"
-	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer && mkdocs build -q -f share/site/mkdocs.yml
+	@python3 share/site/prepare.py . build-site/pages $(build)/bin/langer
+	@mkdocs build -q -f share/site/mkdocs.yml -d $(CURDIR)/build-site/site/$(version) && python3 share/site/versions.py build-site/site
 	@echo "site: build-site/site; its search needs a server: python3 -m http.server -d build-site/site"
 
-# configs/schema, and the line in each config that names its schema
+# the line in each config that names its schema, by which editors find it; `make build` writes the schemas to configs/schema
 schemas: build
-	@mkdir -p configs/schema
 	@for kind in $$($(build)/bin/langer schema --list); do \
-	  $(build)/bin/langer schema $$kind > configs/schema/$$kind.schema.json || exit 1; \
 	  case $$kind in pipeline) files=pipelines/*.yaml; folder=../configs/schema;; *) files=configs/$$kind/*.yaml; folder=../schema;; esac; \
 	  for file in $$files; do \
 	    [ -e $$file ] || continue; \
@@ -250,8 +251,9 @@ help:
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
 	@echo "make deb                      the same as a Debian package; make bundle: as a tar with its libraries, for any Linux; GMSH=1; make wheel: for pip"
 	@echo "make test-package             both, and whether they hold what they should and run; make test-bundle SUITE=trixie: in a bare system"
-	@echo "make map                      draw the folders of lib and their includes, docs/map.svg (installs graphviz)"
+	@echo "make measure                  list the command behind each table of measured numbers in docs/"
+	@echo "make map                      draw the wings of lib and their includes, docs/map.svg (installs graphviz)"
 	@echo "make site                     docs, gallery, columns and keys as pages with a search (installs mkdocs-material)"
 	@echo "make gallery                  run the pipelines, write their pictures, costs and errors into docs/ for the site (installs python3-pil)"
-	@echo "make schemas                  write configs/schema again after a change of a listing"
+	@echo "make schemas                  name its schema in the first line of each new config, for editors"
 	@echo "make clean                    remove $(build); results in runs/ stay"

@@ -1,5 +1,10 @@
 # Measurements whose tables and pictures stand in docs/; included by the Makefile, which sets $(build), $(programs), $(packages).
 
+# the command behind each table of measured numbers in docs/; a test asks for it, too
+.PHONY: measure
+measure:
+	@python3 tests/style/tables_are_measured.py .
+
 # both, and their tables into the page
 reliability: soak fuzz
 	@tests/soak/page docs/tested.md kills $(build)/soak.md
@@ -88,12 +93,11 @@ adaptive: build
 	  tests/soak/page docs/study_adaptive.md adaptive_$$what runs/adaptive/$$what.md || exit 1; done
 	@tests/bench/adaptive.py picture runs/adaptive/adaptive.csv | gnuplot > docs/work_precision_adaptive.svg
 
-# the folders of lib and the includes between them: docs/map.svg
+# the wings of lib with their rooms, and the includes between wings: docs/map.svg
 map:
 	@$(MAKE) --no-print-directory deps packages=graphviz
 	@mkdir -p runs && grep -rc '' lib stages --include=*.?pp > runs/map_lines && grep -rHo '^#include "[a-z_0-9/]*/' lib stages > runs/map_includes
-	@awk -f docs/map.awk runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
-
+	@awk -f docs/map.awk tests/layout.cmake runs/map_lines runs/map_includes | tred | dot -Tsvg > docs/map.svg
 
 # which discretisation of contact with friction is nearest, and what its error is
 contact-discretisations:

@@ -1,4 +1,4 @@
-// langer show | new | check | serve | describe | schema | explain | times | crate | doctor | man |
+// langer show | new | check | serve | describe | schema | explain | times | crate | doctor |
 // completion: commands that read files and configs but compute nothing.
 //
 // Each command has a page in the table of cli/manual.cpp. Its positional arguments and options are
@@ -29,7 +29,7 @@ namespace {
 // The arguments of a command.
 struct Given {
   std::vector<std::string> places;  // positional arguments
-  std::string as, same_as, port;
+  std::string as, same_as, port, into;
   CrateWords crate;
   bool config = false;
   bool json = false;
@@ -93,18 +93,11 @@ int describe_kind(const Given& given) {
   return print(schema_text(name));
 }
 
-// `langer man`: the man page of a program.
-int manual(const Given& given) {
-  std::vector<std::string> known;
-  for (const Usage& u : all_usages()) {
-    if (u.program == given.places[0]) return print(man_text(u));
-    known.push_back(u.program);
-  }
-  throw Failure(Exit::config, Error{{},
-                                    "",
-                                    fmt::format("there is no program \"{}\"", given.places[0]),
-                                    "one of " + list_words(known),
-                                    ""});
+// `langer schema --into`: the schemas of all kinds, for an editor.
+int write_all_schemas(const std::string& folder) {
+  const std::size_t files = write_schemas(folder);
+  say_line("langer: {} schemas in {}", files, folder);
+  return 0;
 }
 
 // `langer crate`: writes a crate, or compares two folders with --same-as.
@@ -182,6 +175,7 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
                                    {"--author", &given.crate.author},
                                    {"--license", &given.crate.license},
                                    {"--port", &given.port},
+                                   {"--into", &given.into},
                                    {"--root", &given.crate.root}})
     if (usage.find(name)) options.text(name, *text);
   for (const auto& [name, flag] : {std::pair{"--config", &given.config},
@@ -193,6 +187,7 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
   int code = 0;
   if (!options.read(usage, argc, argv, code)) return code;
   if (given.list) return print(fmt::format("{}\n", fmt::join(schema_kinds(), "\n")));
+  if (!given.into.empty()) return write_all_schemas(given.into);
   std::optional<std::size_t> most = required;
   if (name == "new") most = 2;
   if (name == "serve") most = 1;
@@ -208,7 +203,6 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
   if (name == "times") return print(times_text(times_of(given.places[0]), given.failed));
   if (name == "crate") return crate(given);
   if (name == "doctor") return doctor();
-  if (name == "man") return manual(given);
   return print(completion_text());
 }
 

@@ -513,7 +513,7 @@ std::vector<std::string> side_files(const PostConfig& config) {
 
 // --export: writes the solved scene as input files of other programs, and nothing else.
 int export_scene(int argc, char** argv) {
-  const Usage usage = usage_of(*find_stage("post"), find_config_kind("post")->top_keys(), "");
+  const Usage usage = usage_of(*find_stage("post"), find_config_kind("post")->top_keys());
   Arguments options(usage.program);
   std::string solution, log;
   std::vector<std::string> files;

@@ -1,5 +1,6 @@
-// The commands of `langer`, the man pages, and the completion of bash. All of them are generated
-// from the tables of usage and of stages, so they cannot contradict the programs.
+// The commands of `langer` and the completion of bash. Both are generated from the tables of usage
+// and of stages, so they cannot contradict the programs. Man pages are made from --help by the
+// build (cmake/man_pages.cmake).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "cli/usage.hpp"
 #include "core/base/split.hpp"
 #include "core/base/text.hpp"
-#include "core/base/version.hpp"
 #include "core/config/member.hpp"
 #include "pipeline/plan/effective.hpp"
 
@@ -19,29 +19,10 @@ namespace {
 // The last of several names of an option is the long one: "-o,--output".
 std::string longest_flag(const UsageOption& o) { return o.flags.substr(o.flags.rfind(',') + 1); }
 
-// Text in troff, the language of man pages: escapes backslashes, hyphens, quotes, and a full stop
-// at the beginning of a line.
-std::string roff(const std::string& s) {
-  std::string out;
-  for (const char c : s) {
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else if (c == '\'')
-      out += "\\(aq";
-    else
-      out += c;
-  }
-  if (!out.empty() && out[0] == '.') return "\\&" + out;
-  return out;
-}
-
 }  // namespace
 
 Usage usage_of(const StageSpec& stage) {
-  const ConfigKind* kind = find_config_kind(stage.name);
-  return usage_of(stage, kind->top_keys(), kind->reference());
+  return usage_of(stage, find_config_kind(stage.name)->top_keys());
 }
 
 namespace {
@@ -51,7 +32,7 @@ Usage command(const char* program, const char* sentence, std::vector<UsageOption
               const char* example) {
   for (UsageOption& o : common_options())
     if (o.flags == "-h,--help") options.push_back(std::move(o));
-  return {program, sentence, std::move(options), {}, "", example, ""};
+  return {program, sentence, std::move(options), {}, example, ""};
 }
 
 // The commands of `langer`. Kinds of configs come from the table of stages, so a new stage appears
@@ -106,7 +87,8 @@ std::vector<Usage> table_of_commands() {
               "langer describe solve"),
       command("langer schema", "Prints the JSON Schema of a config, for editors.",
               {{"KIND", "", fmt::format("one of {}", list_words(kinds)), "", kinds, true},
-               {"--list", "", "print the kinds instead", "", {}}},
+               {"--list", "", "print the kinds instead", "", {}},
+               {"--into", "FOLDER", "write the schemas of all kinds there instead", "/", {}}},
               "langer schema solve > solve.schema.json"),
       command("langer explain", "Explains why make would run a step of a run again.",
               {{"RUN", "", "folder of a run", "/", {}, true}}, "langer explain runs/indentation"),
@@ -138,9 +120,6 @@ std::vector<Usage> table_of_commands() {
               "Lists the programs and libraries that Langer can use, and what does not work "
               "without the missing ones.",
               {}, "langer doctor"),
-      command("langer man", "Prints the man page of a program.",
-              {{"PROGRAM", "", "langer, langer-solve, ...", "", {}, true}},
-              "langer man langer-solve | man -l -"),
       command("langer completion", "Prints the completion of all programs for bash.", {},
               "source <(langer completion)"),
   };
@@ -157,11 +136,9 @@ const std::vector<Usage>& langer_commands() {
 Usage langer_usage() {
   Usage u{
       "langer",
-      "Shows files, starts projects and checks configs; the computations are done by langer-mesh, "
-      "langer-solve, ...",
+      "Shows files, starts projects and checks configs. The stages, such as langer-solve, compute.",
       {},
       {},
-      "",
       "",
       ""};
   for (const Usage& c : langer_commands()) {
@@ -181,71 +158,13 @@ Usage langer_usage() {
   return u;
 }
 
-// The programs that have a man page: the stages, langer-plan, and langer with all its commands.
+// The programs: the stages, langer-plan, and langer with all its commands.
 std::vector<Usage> all_usages() {
   std::vector<Usage> all;
   for (const StageSpec& s : stages()) all.push_back(usage_of(s));
   all.push_back(plan_usage());
   all.push_back(langer_usage());
   return all;
-}
-
-namespace {
-
-// The options of a program as a list of troff.
-std::string man_options(const Usage& u) {
-  std::string s;
-  for (const UsageOption& o : u.options)
-    s += ".TP\n.B " + roff(option_text(o)) + "\n" + roff(o.says) + "\n";
-  return s;
-}
-
-// Lines that are not filled.
-std::string man_lines(const std::string& lines) {
-  std::string s = ".nf\n";
-  for (const std::string& line : split(lines, '\n')) s += roff(line) + "\n";
-  return s + ".fi\n";
-}
-
-// Only letters of ASCII: the case of other letters depends on the locale.
-std::string upper_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return text;
-}
-
-}  // namespace
-
-// The sections of a man page in their usual order. The reference of the config is part of the page
-// of a stage, so `man langer-solve` is complete without a network.
-std::string man_text(const Usage& u) {
-  std::string name = u.program;
-  std::replace(name.begin(), name.end(), ' ', '-');
-  std::string s = fmt::format(".TH {} 1 \"\" \"Langer {}\" \"Langer\"\n.SH NAME\n{} \\- {}\n",
-                              upper_case(name), version, roff(name), roff(u.sentence));
-  s += ".SH SYNOPSIS\n.B " + roff(usage_line(u)) + "\n";
-  if (u.program == "langer") {
-    s += ".SH COMMANDS\n" + man_options(u);
-    for (const Usage& c : langer_commands())
-      s += ".SS " + roff(synopsis(c)) + "\n" + roff(c.sentence) + "\n" + man_options(c);
-  } else {
-    s += ".SH OPTIONS\n" + man_options(u);
-  }
-  if (!u.reference.empty()) {
-    s += ".SH CONFIG\nA YAML file, in mm, N, MPa, s and degrees.\n.PP\n";
-    s += man_lines(u.reference);
-  }
-  s += ".SH EXAMPLES\n" + man_lines(u.examples);
-  s += ".SH EXIT STATUS\n" + roff(exit_codes) + "\n";
-  s += ".SH ENVIRONMENT\n"
-       ".TP\n.B NO_COLOR\nno colour on a terminal\n"
-       ".TP\n.B SOURCE_DATE_EPOCH\nthe time written into files\n";
-  if (!u.more.empty()) s += ".SH NOTES\n" + roff(u.more) + "\n";
-  s += ".SH SEE ALSO\n";
-  std::string others;
-  for (const Usage& other : all_usages())
-    if (other.program != u.program) append(others, ",\n", ".BR " + roff(other.program) + " (1)");
-  return s + others + "\n";
 }
 
 namespace {

@@ -1,12 +1,14 @@
 #include "cli/schemas.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/base/text.hpp"
 #include "core/config/member.hpp"
+#include "core/hdf5/seal.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/pipeline_schema.hpp"
 
@@ -38,6 +40,22 @@ std::string schema_text(const std::string& kind) {
 }
 
 std::string schema_file(const std::string& kind) { return kind + ".schema.json"; }
+
+// The folder may be one that exists: files of the same names are replaced.
+std::size_t write_schemas(const std::string& folder) {
+  std::error_code ec;
+  std::filesystem::create_directories(folder, ec);
+  if (!std::filesystem::is_directory(folder)) {
+    std::string found = "this folder cannot be made";
+    if (ec) found += ": " + ec.message();
+    throw Failure(Exit::input, Error{{folder}, "", found, "", ""});
+  }
+  const std::vector<std::string> kinds = schema_kinds();
+  for (const std::string& kind : kinds)
+    write_text_file_soon((std::filesystem::path(folder) / schema_file(kind)).string(),
+                         schema_text(kind));
+  return kinds.size();
+}
 
 std::string schema_line(const std::string& kind, const std::string& folder) {
   return fmt::format("# yaml-language-server: $schema={}/{}\n", folder, schema_file(kind));

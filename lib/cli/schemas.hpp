@@ -15,6 +15,8 @@ std::vector<std::string> schema_kinds();
 bool has_schema(const std::string& kind);
 std::string schema_text(const std::string& kind);  // throws Failure(config) with the known kinds
 std::string schema_file(const std::string& kind);  // "solve.schema.json"
+// Writes the schemas of all kinds into a folder, which is made; the number of files.
+std::size_t write_schemas(const std::string& folder);
 // The comment by which an editor finds the schema. `folder`: of the schema, relative to the file.
 std::string schema_line(const std::string& kind, const std::string& folder);
 

@@ -137,8 +137,8 @@ const UsageOption* Usage::find(const std::string& flag) const {
 }
 
 // Ports become options; --dry-run and --export depend on the stage.
-Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::string reference) {
-  Usage u{std::string("langer-") + stage.name, stage.sentence, {}, {}, "", "", ""};
+Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys) {
+  Usage u{std::string("langer-") + stage.name, stage.sentence, {}, {}, "", ""};
   u.options.push_back({"CONFIG", "", "YAML file with the keys below", "yaml yml", {}, true});
   for (const Port& p : stage.inputs) u.options.push_back(port_option(p));
   u.options.push_back(
@@ -161,7 +161,6 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
       {"--describe", "", "every key of the config: type, range, unit, default, meaning", "", {}});
   for (UsageOption& o : common_options()) u.options.push_back(std::move(o));
   u.keys = std::move(keys);
-  u.reference = std::move(reference);
   u.examples = stage_example(stage);
   if (*stage.exports)
     u.examples +=
@@ -171,7 +170,7 @@ Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::stri
 
 // langer-plan is not a stage: it has a pipeline instead of a config.
 Usage plan_usage() {
-  Usage u{"langer-plan", "Turns a pipeline into a Makefile.", {}, {}, "", "", ""};
+  Usage u{"langer-plan", "Turns a pipeline into a Makefile.", {}, {}, "", ""};
   u.options = {
       {"PIPELINE", "", "YAML file with nodes", "yaml yml", {}, true},
       {"-o,--output",

@@ -1,5 +1,5 @@
-// The options of every program in one table. --help, the man pages and the completion of the shell
-// are made from it. The argument parser refuses an option that the table lacks
+// The options of every program in one table. --help and the completion of the shell are made from
+// it, and the man pages from --help. The argument parser refuses an option that the table lacks
 // (stages/common/arguments.cpp), so these pages are always complete.
 #pragma once
 
@@ -27,14 +27,13 @@ struct Usage {
   std::string sentence;  // first line
   std::vector<UsageOption> options;
   std::vector<DescribedKey> keys;  // top keys of its config
-  std::string reference;           // all of them, for the man page
   std::string examples;            // one command a line
-  std::string more;                // closing remarks of the man page
+  std::string more;                // closing remarks
 
   const UsageOption* find(const std::string& flag) const;
 };
 
-Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys, std::string reference);
+Usage usage_of(const StageSpec& stage, std::vector<DescribedKey> keys);
 Usage plan_usage();
 std::string help_text(const Usage& usage);
 extern const char* const exit_codes;  // one line
@@ -51,7 +50,6 @@ Usage usage_of(const StageSpec& stage);
 Usage langer_usage();                         // of `langer` as a whole
 const std::vector<Usage>& langer_commands();  // show, new, check, ...
 std::vector<Usage> all_usages();              // every program, `langer` with its commands
-std::string man_text(const Usage& usage);     // troff, section 1
 std::string completion_text();                // bash, for all programs
 
 }  // namespace langer

@@ -3,7 +3,7 @@
 //   IndentedBlock  a Block whose cells follow from the indenter and one number
 //   GradedBlock  square core, rings and outer blocks in the x-z plane (an O-grid), extruded along y: edges turn with the rings
 //   FromFile     what another program meshed
-//   SectionBox, IndentedDisc  two-dimensional scenes (geometry/section.hpp)
+//   SectionBox, IndentedDisc  two-dimensional scenes (mechanics/mesh/section.hpp)
 // Observation points become nodes: grid lines of a Block are moved through them; a GradedBlock or a
 // file must have nodes there.
 #pragma once
@@ -138,7 +138,7 @@ struct IndentedBlock {
   std::vector<Complaint> complaints() const;
 };
 
-// A mesh that another program made, with its sets and bodies (geometry/exchange.hpp).
+// A mesh that another program made, with its sets and bodies (meshing/exchange.hpp).
 struct FromFile {
   static constexpr const char* key = "file";
   InputPath file;

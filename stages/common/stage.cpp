@@ -222,7 +222,7 @@ int run_stage(int argc, char** argv, const std::string& name, Task& task, const 
       return static_cast<int>(Exit::ok);
     }
     int code = 0;
-    if (!options.read(usage_of(spec, kind.top_keys(), ""), argc, argv, code)) return code;
+    if (!options.read(usage_of(spec, kind.top_keys()), argc, argv, code)) return code;
     if (task.output.empty() && !task.dry_run) {
       say_error(fmt::format("{}: --output is required\n  hint: {} --help", program, program));
       return static_cast<int>(Exit::config);

@@ -101,6 +101,23 @@ TEST_CASE("a bar meets a wall with the pressure of its wave and leaves with its 
   }
 }
 
+// The table of docs/dynamics.md.
+TEST_CASE("the pressure on a bar rings if contact nodes keep their mass") {
+  const int cells = 50;
+  InertiaOptions theta = without_contact_mass(1);
+  theta.scheme = Scheme::theta;
+  InertiaOptions kept;
+  kept.rho_inf = 1;
+  const Pressure moved_inwards = bar_on_wall(cells, 1, without_contact_mass(1));
+  const Pressure impulses = bar_on_wall(cells, 1, theta);
+  const Pressure ringing = bar_on_wall(cells, 1, kept);
+  CHECK(moved_inwards.rms < 0.005);
+  CHECK(impulses.rms < 0.005);
+  CHECK(std::abs(impulses.energy) < 1e-4);
+  CHECK(ringing.rms > 1);
+  CHECK(ringing.energy > 1);
+}
+
 TEST_CASE("a mass on a light column bounces as on a spring") {
   const Mesh mesh = test::block({0, 1}, test::even(0, 4, 4), {0, 1});
   InertiaOptions options = without_contact_mass(1);

@@ -3,12 +3,16 @@
 # check_deb(<file>): what is in it, what it depends on and only recommends, and that lintian finds no error
 macro(check_deb deb)
   run(0 dpkg-deb -c ${deb})
-  foreach(file ./usr/bin/langer "./usr/bin/langer-mesh -> langer" ./usr/lib/langer/langer_gmsh.so ./usr/share/man/man1/langer.1.gz
+  foreach(file ./usr/bin/langer "./usr/bin/langer-mesh -> langer" ./usr/lib/langer/langer_gmsh.so ./usr/share/langer/configs/schema/solve.schema.json
       ./usr/lib/python3/dist-packages/langer/files.py ./usr/share/langer/pipelines/indentation.yaml ./usr/share/langer/notebooks/results.ipynb
       ./usr/share/doc/langer/copyright ./usr/share/doc/langer/changelog.gz ./usr/share/doc/langer/changelog.Debian.gz
       ./usr/share/doc/langer/README.md ./usr/share/doc/langer/docs/tutorial.md ./usr/share/doc/langer/docs/indentation.png)
     expect_said("${file}\n")
   endforeach()
+  find_program(HELP2MAN help2man)
+  if(HELP2MAN)
+    expect_said("./usr/share/man/man1/langer.1.gz\n")
+  endif()
   run(0 dpkg-deb -f ${deb} Depends)
   foreach(package libyaml-cpp libc6 make python3)
     expect_said("${package}")

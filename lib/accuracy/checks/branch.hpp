@@ -1,5 +1,7 @@
-// What has to be known of the perfect body before a run begins: the mode at its first critical
-// point, along which a branch leaves the path, or along which the nodes of the mesh are moved.
+// The critical point of the perfect body, found before a run with `branch` or `imperfection`.
+//
+// Its mode gives the direction in which a branch leaves the path, or the shape by which the nodes
+// of the mesh are moved (accuracy/checks/critical_point.hpp).
 #pragma once
 
 #include <optional>

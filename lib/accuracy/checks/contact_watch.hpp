@@ -1,11 +1,14 @@
-// Whether an indenter's force can be believed: every indenter is held against the whole boundary
-// before the path and after every increment (contact/surface_check.hpp). Records are those of the
-// whole body; of a section those of its own mesh.
-//   refused  (Failure(config), at the contact's key) an indenter that starts inside; one smaller than the cells, or between their
-//            nodes deeper than they are apart; a node inside that is no candidate, by more than 1 % of what the body is pressed in;
-//            no reaction though a facet is entered, at the end of the path; one that jumps through the body in an increment
-//   warned   what is less than that; facets entered by more than 10 % of what the body is pressed in at the largest force; no facet
-//            that touches as a whole; an indenter that never touches
+// Whether the force of an indenter can be trusted.
+//
+// The contact law knows candidate nodes only. Each indenter is therefore compared with the whole
+// boundary, before the path and after every increment (contact/surface_check.hpp).
+//   refused  (Failure(config) at the contact's key): an indenter that starts inside the body; one
+//            smaller than the cells, or deeper between their nodes than these are apart; a node
+//            inside that is no candidate, by more than 1 % of the indentation depth; no reaction at
+//            the end of the path though a facet is entered; an indenter that jumps through the body
+//   warned   the same below these limits; a facet entered by more than 10 % of the depth at the
+//            largest force; no facet that touches as a whole; an indenter that never touches
+// Records are those of the whole body, of a section those of its own mesh.
 #pragma once
 
 #include <functional>

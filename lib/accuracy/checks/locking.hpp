@@ -1,14 +1,18 @@
-// How far a formulation is off where its cells oppose the wrong changes of volume. [SH98]
-//   displacement                        too stiff: opposes J - 1 at every Gauss point; what the usual modes leave should be free
-//   mean_dilatation of quadratic cells  too soft: opposes its mean alone; the linear modes are free to change and should not be
-// theta is the part of J - 1 in question, kappa the bulk modulus, mu the secant 2 W / (I1_bar - 3)
-// of the cell's isochoric energy.
-//   too stiff   Phi = 1/2 integral kappa theta^2 dV0 is what the stored energy W would lose without moving, so the least that is too
-//               much; where shear gives way first, theta is small and its pressure kappa theta tells:
-//               forces too large by  Phi / (W - Phi) + 1/2 integral (kappa theta)^2 / (50 mu) dV0 / W
-//   too soft    a modulus kappa on theta, against a shear of 2 mu, would store  1/2 integral theta^2 / (1/kappa + 1/(2 mu)) dV0
-// 50 and 2 are calibrated: tests/run/locking.cpp has the scenes. Forces and stored energy are taken
-// to be off by the same share.
+// How much a formulation falsifies the forces, because its cells resist the wrong changes of
+// volume.                                                                               [SH98]
+//   displacement                        too stiff: resists J - 1 at every Gauss point, also its
+//                                       part theta, which the usual formulation leaves free
+//   mean_dilatation of quadratic cells  too soft: resists the mean of J - 1 only, and leaves its
+//                                       linear part theta free
+// With the bulk modulus kappa, the stored energy W, and the secant shear modulus
+// mu = 2 W_iso / (I1_bar - 3) of each cell, at least that at rest:
+//   too stiff   the energy  Phi = 1/2 integral kappa theta^2 dV0  is too much. Where shear yields
+//               before the volume does, theta is small, but its pressure kappa theta is not. Share:
+//               Phi / (W - Phi) + 1/2 integral (kappa theta)^2 / (50 mu) dV0 / W
+//   too soft    kappa in series with a shear of 2 mu would store
+//               1/2 integral theta^2 / (1/kappa + 1/(2 mu)) dV0
+// 50 and 2 are calibrated on the scenes of tests/run/locking.cpp. Forces are taken to be off by the
+// same share as the energy.
 #pragma once
 
 #include "mechanics/assembly/assembler.hpp"

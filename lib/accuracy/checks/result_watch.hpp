@@ -1,9 +1,12 @@
-// What a converged state may get wrong all the same; looked at after every accepted increment.
+// Errors that a converged state may contain; checked after every accepted increment.
 //   formulation  cells that lock or are too soft (locking.hpp)
-//   rounding     a tolerance raised to what rounding leaves of the residual, and a residual that is not small beside the reactions
-//   branches     points of a viscous body where the work against them is negative: the law has given that for nothing
-//   chains       those of arruda_boyce beyond their locking stretch, where the series of five terms goes on
-// Nothing is computed for a body whose formulation, stiffness and law give no reason for it.
+//   rounding     a tolerance that was raised to the rounding error of the residual; a residual that
+//                is not small compared with the reactions
+//   branches     points of a viscous body where the work against branches is negative: the model
+//                creates energy there
+//   chains       of arruda_boyce beyond their locking stretch, where its series of five terms still
+//                has a value
+// A check costs nothing where formulation, stiffness and law give no reason for it.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
-// Whether the states of a run can be believed, as its config asks: stability, contact on the whole
-// surface, rounding and locking.
+// All checks of the states of a run, as its config asks for them: stability (stability_watch.hpp,
+// critical_point.hpp), contact on the whole surface (contact_watch.hpp), rounding and locking
+// (result_watch.hpp). A run calls it after every increment.
 #pragma once
 
 #include <map>

@@ -1,10 +1,14 @@
-// Whether what the solver accepted can be trusted: stability of the equilibrium and of the
-// material, and the range of the tests.
-//   tangent       signs of the constrained tangent's eigenvalues (Signature in solve/statics.hpp)
-//   material      smallest shear stiffness over all Gauss points (material/ellipticity.hpp): first on a grid of wave normals
-//                 (element/point_check.hpp), then exactly where it is lowest
-//   fitted range  Ī1 and each fibre's Ī4 up to the largest values in the tests; only where the material comes from a fit
-//   driving force what does work on the path, d(work)/dt: where it falls, the same state under dead load would be past a limit
+// Stability of an accepted state, of the equilibrium and of the material, and the range of the
+// tests that the material was fitted to.
+//   tangent        signs of the eigenvalues of the constrained tangent (Signature in
+//                  solve/statics.hpp): a negative one is an unstable equilibrium
+//   material       smallest eigenvalue of the acoustic tensor over all Gauss points and directions
+//                  (material/ellipticity.hpp), first on a grid of directions (point_check.hpp),
+//                  then exactly where it is lowest; negative: strong ellipticity is lost
+//   fitted range   I1_bar and each fibre's I4_bar against the largest values in the tests; only of
+//                  materials that come from a fit
+//   driving force  work of what is imposed per unit of t; where it falls, the same state under dead
+//                  loads would be past a limit point
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What each cell has of an error bar: the parts by which cells are cut
-// (accuracy/adaptive_cells.hpp).
+// The part that each cell has in an error bar. Cells with large parts are cut
+// (accuracy/refinement/adaptive_cells.hpp).
 #pragma once
 
 #include "accuracy/estimate/error_estimate.hpp"

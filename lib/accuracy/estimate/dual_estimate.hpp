@@ -1,13 +1,18 @@
-// Errors of a result on any mesh, weighted with the dual solution of each quantity: one
-// back-substitution with the factor of the last state each (Statics::movement), and integrals over
-// recovered fields (accuracy/energy_error.hpp).
-//   force, force_<contact>   the body's answer to a movement of the indenters along the force
+// Errors of a result on any mesh, weighted with dual solutions: `estimate: dual`.          [BR01]
+//
+// A force is the derivative of the energy by the movement that it works on. Its error is therefore
+// the derivative of the energy's error (accuracy/estimate/energy_error.hpp) along the body's answer
+// to that movement, the dual solution. Each costs one back-substitution with the factor of the last
+// state (Statics::movement):
+//   force, force_<contact>   the answer to a movement of the indenters along the force
 //   reaction_<set>           to a movement of the set along it
 //   displacement_<point>     to a force of 1 N there, along the displacement
-// What the fields cannot tell is put into the bar as scatter, a share of the sum of all cells'
-// parts without their signs: nodes that come into contact one by one, and, where faces are clamped,
-// the neighbourhood of their edges, where nothing is smooth. The shares were measured
-// (docs/work_precision.md).
+// The error is a sum over cells, so it also shows which cells to cut (adaptive_cells.hpp).
+//
+// The recovered fields are smooth. Nodes that come into contact one by one, and the edges of
+// clamped faces, are not. For them a share of the sum of the parts' absolute values is added as
+// scatter.
+// The shares were measured: docs/accuracy.md, "Dual estimates".
 #pragma once
 
 #include "accuracy/estimate/error_estimate.hpp"

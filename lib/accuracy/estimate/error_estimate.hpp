@@ -1,34 +1,30 @@
-// What a result is worth: the scene is solved again on other meshes, all of whose cells differ by
-// one factor (Block::instead), and q is set against f of q = f + A h^p fitted to them; p = 2; for
-// the greatest stress, the force of a plane or a flat punch, and what a clamped face passes on, p
-// = 1. Only where all cells grow alike does an error follow such a law: layers and cells to the
-// side have errors of opposite signs.
-//   hex8        themselves and cells longer by 1.25 and 1.5; where nodes under the indenter are further apart than 0.18 contact
-//               radii (of a disc 0.07), which is too coarse for the law, hex8 of 0.125 (0.0442) and by as much
-//               longer, whatever that costs
-//   hex27       the force by such hex8, of at most half their edge: they have more nodes in contact for the time; all else by
-//               hex27 longer by sqrt 2 and by 2, reactions without indenters, too
-// Errors have a sign: what is found lies above its limit by
-//   cells       q - f
-//   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order (Statics::slip_from_touch), r = 2 or more, so that dt / r <= 1/8;
-//               of increments below 0.1 what twice their length changes; on the longest of these cells; nothing where no friction
-//               and no time makes the path matter
-//   order       of meshes that are no study's (scenes in a MeshFamily, or without an indenter) the smaller one of p and of that which the
-//               three meshes show; where a greatest stress has none, it grows without bound and gets no bar
-//   scatter     root mean square of what the fit leaves, or what no fit to three meshes shows: nodes come into contact one by one (of a
-//               section a ring of them), and go up and down with the length of the cells: half of 3.1 n^(-3/2) of the force, n nodes
-//               that touch on the finest mesh of those above, and of a section half of 0.25 n^(-2); the greatest stress lies
-//               between points: half of 0.6 (pi / n)^(1/2), and of 0.6 / n; under a punch times its radius over that of its edge
-//               e: there half of 0.8 (R / e) / n of the force. Of hex8 with friction and nodes further apart than 0.14 contact radii
-//               half of what |cells| lacks to 1.6 / n of the force: three such meshes do not tell it         docs/work_precision.md
+// The error of a result by refinement: the scene is solved again on other meshes and increments.
+//
+// The values of three meshes are fitted by
+//   q = f + A h^p,    p = 2, or 1 where the exact solution is singular: greatest stress, force of a
+//                     plane or a flat punch, reaction of a clamped face
+// f is the limit, q - f the error. The meshes are one family: all their elements differ by one
+// factor (Block::instead). Only then does the error follow one law, since errors of layers and of
+// cells to the side have opposite signs. The parts of an error bar, those of cells and increments
+// with their sign:
+//   cells       q - f of the solved mesh
+//   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order, with r >= 2 so that
+//               dt / r <= 1/8; of increments below 0.1 the effect of doubling them; none where
+//               neither friction nor time makes the path matter
+//   scatter     root mean square of what the fit leaves, and at least a share that falls with the
+//               number n of nodes in contact, which come into contact one by one (one_by_one())
 //   solver      the last residual relative to the forces that it balances
-//   total       F |cells| + |increments| + 2 scatter + solver, F = 1, where p = 1 Roache's factor of safety for three meshes, 1.25, and 2
-//               where the order is only observed;
-//   limit       found - cells - increments
-//   left out    of what a body leaves out that stands for a larger one, where the config asks (accuracy/truncation.hpp)
-// For meshes whose cells follow from numbers of the config (has_numbers_of_cells). Where that is
-// not the length in contact radii (block, section), hex8 are taken for fine enough, and hex27 are
-// set against hex8 of half their length.
+//   total       F |cells| + |increments| + 2 scatter + solver. F = 1; where p = 1 Roache's factor
+//               of safety for three meshes, 1.25; 2 where the order is only observed
+//   limit       q - cells - increments
+//   left out    effect of what a body leaves out that stands for a larger one, if the config asks
+//               for it (accuracy/estimate/truncation.hpp); not in total
+// Meshes without a study (MeshFamily, no indenter) have the smaller one of p and of the order that
+// they show. A greatest stress without an order grows without bound and gets no bar.
+//
+// Which meshes are solved for which scene, and the lower limits of the scatter with their
+// constants: docs/accuracy.md, "Estimates by refinement". Meshes need numbers of cells that follow
+// from the config (has_numbers_of_cells).
 #pragma once
 
 #include <algorithm>
@@ -95,8 +91,8 @@ struct ErrorEstimate {
     std::string name;
     double value;
   };
-  std::vector<Part> left_out =
-      {};  // by a body that stands for a larger one (accuracy/truncation.hpp); signed, not in total
+  std::vector<Part> left_out = {};  // by a body that stands for a larger one
+                                    // (accuracy/estimate/truncation.hpp); signed, not in total
   // Parts of opposite signs are added up, as nothing shows that they stay so; meshes that do not
   // follow one law leave more open than their scatter.
   double factor() const {
@@ -164,8 +160,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                           const SolvedPath& itself, double residual,
                           const EstimateListener& listener = {});
 
-// as config.estimate says (recovery: accuracy/recovered_path.hpp), of the last state of its run and
-// of the forces on its path
+// as config.estimate says (recovery: accuracy/estimate/recovered_path.hpp), of the last state of
+// its run and of the forces on its path
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
                      const std::function<Place(const std::string&)>& where, Run& run,
                      const StepRecord& last, const std::vector<StepForces>& path,

@@ -1,12 +1,17 @@
-// Error bars beside a run, of any mesh and without a second solution: by what the stress of its
-// steps lacks to be smooth (post/recovery.hpp).
-//   estimate: recovery   and where the config has no key `estimate`, for bodies to which it applies
-// A force under imposed movements is too large by about the share of the energy that the difference
-// holds. What no stress tells is added:
-//   cells       at least what nodes add that stick where they touch, as in an estimate by refinement
-//   scatter     nodes that come into contact one by one
-//   increments  with friction 0.04 of the force times the square of the longest increment's share of the path: not an estimate, but what
-//               it was in the refinement study's scenes at most                                              docs/work_precision.md
+// Error bars of a run without a second solution, on any mesh: `estimate: recovery`, and the default
+// of bodies to which it applies.
+//
+// Stresses of finite elements jump from element to element. A smooth field through their averages
+// at the nodes is more accurate [ZZ87], and the energy of the difference estimates the error:
+//   a force under prescribed movements is too large by about the share of the energy that the
+//   difference holds (results/post/recovery.hpp)
+// Where stresses are singular (p = 1 in error_estimate.hpp) the bar is three times that. Added are
+// effects that no stress shows:
+//   cells       of nodes that stick where they touch, at least as in an estimate by refinement
+//   scatter     of nodes that come into contact one by one
+//   increments  with friction 0.04 of the force times the square of the longest increment's share
+//               of the path: no estimate, but the largest effect in the refinement study
+//               (docs/work_precision.md)
 #pragma once
 
 #include <memory>
@@ -37,7 +42,7 @@ class RecoveredPath {
   bool wanted() const { return body_ != nullptr; }
   Observer beside(Observer observer);
   // With an accuracy that is asked for, of_cells too; and nothing else where the bars are not to be
-  // trusted. resolved: contact is, by the cells (watch/contact_watch.hpp)
+  // trusted. resolved: contact is, by the cells (accuracy/checks/contact_watch.hpp)
   PathErrors errors(const StepRecord& last, const std::vector<Valued>& found,
                     bool resolved = true) const;
 

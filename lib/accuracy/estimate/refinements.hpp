@@ -1,5 +1,5 @@
-// The scenes that an estimate by refinement solves beside the one that it judges: which meshes,
-// which increments.
+// The scenes that an estimate by refinement solves in addition to the one that it judges: which
+// meshes and which increments (accuracy/estimate/error_estimate.hpp).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Refinements {
   double per_change =
       0;  // error of the increments per what these change; 0: none, the path does not matter
   std::map<Truncation, std::array<SolveConfig, 2>>
-      wider;  // than the one with the longest cells (accuracy/truncation.hpp)
+      wider;  // than the one with the longest cells (accuracy/estimate/truncation.hpp)
   int n_scenes() const {
     return static_cast<int>(hex8.size() + hex27.size() + 2 * wider.size()) + (per_change != 0);
   }

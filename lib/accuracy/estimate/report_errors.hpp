@@ -1,4 +1,4 @@
-// The estimate of a solve's errors, made and told where its config asks for one.
+// Makes the error estimate of a run if its config asks for one, and prints it.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,8 @@ namespace langer {
 
 // Which estimate a run gets: that of its config; with auto that by other meshes where it takes less
 // than a third of the solve by the forecast; else, and where the config has no such key, that by
-// recovery where it tells anything (accuracy/recovered_path.hpp), else none. auto says why.
+// recovery where it tells anything (accuracy/estimate/recovered_path.hpp), else none. auto says
+// why.
 EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
                        const std::optional<Material>& material, const Run::Where& where, Run& run);
 

@@ -53,7 +53,7 @@ struct ChosenLevel {
   std::string words;
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
-  bool cut = false;       // cells, where the error comes from (accuracy/adaptive_cells.hpp)
+  bool cut = false;  // cells, where the error comes from (accuracy/refinement/adaptive_cells.hpp)
 };
 // Puts the level's cells, increments and symmetry into the config, and the cells to where the
 // indenters are; nothing where no accuracy is wanted. Scenes that are not of the study's kind get
@@ -61,7 +61,7 @@ struct ChosenLevel {
 // radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if
 // the config has them; what does not is named in `words`. material: of the bodies that the config
 // names none for. cuts: who solves it cuts cells where the error comes from, if the scene is one
-// for that (accuracy/adaptive_cells.hpp): then with coarse cells.
+// for that (accuracy/refinement/adaptive_cells.hpp): then with coarse cells.
 std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
                                            const std::optional<Material>& material,
                                            bool cuts = false);

@@ -1,7 +1,8 @@
-// Cells cut where the error of a force comes from, until an accuracy is reached: from the estimate
-// of one mesh, dual or by recovery, to the next one. [D96] marks the cells with the largest parts,
-// as many as cutting them takes the sum to what is wanted; what 2:1 asks for is cut beside them
-// (mesh/cut.hpp). Sets keep the area that they have on the first mesh.
+// Cells are cut where the error of a force comes from, until an accuracy is reached:
+//   solve -> estimate (dual or by recovery) -> mark -> cut -> solve ...
+// Doerfler's marking [D96]: the cells with the largest parts of the error, as many as have to be
+// cut so that the rest is within the request. Neighbours are cut too where sizes would differ by
+// more than one cut (2:1, mesh/cut.hpp). Sets keep the area that they have on the first mesh.
 #pragma once
 
 #include <string>
@@ -18,7 +19,8 @@ namespace langer {
 std::vector<char> largest_parts(const std::vector<double>& parts, double wanted, double order);
 
 // Why cells are not cut in such a scene, on such a mesh; empty where they are: hex8 of a body whose
-// errors are known by cells, and nothing that hanging nodes do not know (scene/hanging.hpp).
+// errors are known by cells, and nothing that hanging nodes do not know
+// (scene/model/hanging_constraints.hpp).
 std::string reason_not_refinable(const SolveConfig& config);
 std::string reason_not_refinable(const Mesh& mesh);
 

@@ -1,5 +1,6 @@
-// What a level of an accuracy would take, told before it is begun: from the analysis of its own
-// tangent (run/dry_run.hpp).
+// The cost of a level of an accuracy, known before it is solved: from the symbolic analysis of its
+// tangent (scene/run/dry_run.hpp). A level that needs more memory or time than is left is not
+// begun.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,9 @@
-// Which model of a scene is solved: the block or a section in its place, with which cells and
-// increments, a point of a body that deforms alike everywhere or its mesh. What a solve shows
-// decides on the next one, until one stands.
+// The choice of the model that is solved for a scene, and of the next one:
+//   body        the block, or an axisymmetric section in its place (section_in_place.hpp)
+//   mesh        cells and increments of a level (accuracy.hpp), or cells that are cut
+//               (adaptive_cells.hpp)
+//   one point   instead of the mesh of a body that deforms homogeneously
+// decide() follows each solution, until one is accepted or no further model is left.
 #pragma once
 
 #include "accuracy/refinement/accuracy.hpp"

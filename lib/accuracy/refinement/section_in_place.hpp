@@ -1,12 +1,13 @@
-// A block that is the same around a vertical axis but for its far sides, solved as an axisymmetric
-// section in its place.
-//   the same    an indented_block that only its bottom and top hold, move or touch; indenters of revolution about the vertical through
-//               its middle, moving along it; no fibres with a direction; sets and points that such a section has too
+// A block whose scene is axisymmetric except for its far sides, solved as an axisymmetric section.
+//   conditions  an indented_block that is held, moved and touched at bottom and top only; indenters
+//               of revolution about the vertical through its middle, which move along it; fibres
+//               without a direction; sets and points that such a section has too
 //   section     a disc of the block's area and thickness
-//   sides       discs inside and around the block (radii: half its shorter side, half its diagonal) lie on either side of it: the larger
-//               of the two changes of a force, from the disc of equal area, is what the sides may make
-// Taken where `reduce: auto` asks for it and the sides change no force by more than the accuracy
-// asked for, 1 % without one.
+//   sides       two more discs bracket the block: one inside of it (radius: half its shorter side),
+//               one around it (half its diagonal). The larger change of the force, from the disc of
+//               equal area, is the possible influence of the sides
+// The section is taken with `reduce: auto`, if the sides change no force by more than the accuracy
+// that is requested, 1 % without one.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
-// A fit whose tests are scenes (finite element runs). It searches on coarse elements first, then on
-// those of the configs, and estimates the discretisation error of the parameters from both.
+// A fit with scenes (finite element runs) among its tests. The search begins on coarse elements and
+// ends on those of the configs. The difference of the two estimates the discretisation error of the
+// parameters. The model of a scene: scene_fit.hpp.
 #pragma once
 
 #include <memory>

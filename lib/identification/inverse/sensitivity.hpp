@@ -1,8 +1,10 @@
-// Derivatives of a run with respect to numbers of its scene, increment by increment beside it:
-// `sensitivity` in a config. Direct differentiation of every accepted state
-// (solve/state_tangent.hpp); what a number changes of the internal force where the state stands
-// still is a difference of that force, in which moduli are linear. Derivatives of an increment with
-// friction need those of the two before.
+// Derivatives of a run with respect to numbers of its scene, increment by increment: the key
+// `sensitivity`, and the Jacobian of fits to scenes.
+//
+// Every accepted state is differentiated directly (solve/state_tangent.hpp). For a parameter of the
+// material, the change of the internal force with u fixed is a difference of two forces; it is
+// exact for moduli, in which forces are linear. With friction an increment needs the derivatives of
+// the two before it.
 #pragma once
 
 #include <set>

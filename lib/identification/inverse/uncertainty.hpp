@@ -1,10 +1,10 @@
-// What a fit does not know of its parameters, carried into the forces of a run by their
-// derivatives: `uncertainty: linear`.
-//   variance of a force   g^T C g,   g its derivatives with respect to the parameters, C their covariance in material.h5
-//   without p_j           what is left of it where p_j were known exactly: C conditioned on p_j
-// Numbers that follow others (ties of the fit) count with them. Angles of symmetry, parameters on a
-// bound and those that the tests do not determine have no variance in C: they are left out, and
-// said.
+// The uncertainty of a force from the uncertainty of fitted parameters: `uncertainty: linear`.
+//   variance of a force   g^T C g     g: its derivatives by the parameters (sensitivity.hpp),
+//                                     C: their covariance in material.h5
+//   without p_j           what would be left if p_j were known exactly: C conditioned on p_j
+// First order: valid while a force is linear over the uncertainty of the parameters; langer-sample
+// checks it by runs. Tied numbers follow their parameter. Angles of symmetry, parameters on a bound
+// and undetermined ones have no variance in C: they are left out, and the run says so.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // The config of langer-fit.
 //   data:       [{file: ../../data/curve.csv, strain_to: 0.6}]       one test, or several of any kind, fitted together;
-//               what the file says of itself (study/specimen.hpp) need not stand here, what stands here wins
+//               what the file says of itself (setup/specimen.hpp) need not stand here, what stands here wins
 //   law:        a material; its numbers are the start values, those not named under `parameters` stay as they are
 //   bounds:     admissible
 //   parameters: [{key: matrix.yeoh.a1}, {key: "fibres[0].alpha", lower: 0, upper: 90}, ...]

@@ -1,4 +1,4 @@
-// Reading of the configs of fits, compiled once (as in scene/config_io.hpp).
+// Reading of the configs of fits, compiled once (as in scene/model/solve_config_io.hpp).
 #pragma once
 
 #include "core/config/reader.hpp"

@@ -1,4 +1,4 @@
-// Tables and figures of a study (study/study.hpp) and of a sensitivity study, beside the main
+// Tables and figures of a study (statistics/study.hpp) and of a sensitivity study, beside the main
 // output of their stage.
 //   correlation, profiles, stability_plane, stability_directions       effects, effects_by_zone, morris_by_zone, sobol_by_zone
 #pragma once

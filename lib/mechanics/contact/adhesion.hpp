@@ -1,13 +1,15 @@
-// Adhesion of a contact by its intensity beta: 1 bonded, 0 free.                Raous, Cangemi,
-// Cocu 1999, rate-independent or viscous Per reference area of the body's surface, with the gap <g>
-// >= 0 and the slip v_t since the node bonded:
-//   s = C_N <g>^2 + C_T |v_t|^2,  stored 1/2 beta^2 s [N/mm],  force on the body -d(1/2 beta^2 s)/dx [MPa]
-//   -b dbeta/dt = beta s - w where beta s > w, else 0;  b = 0:  beta = min(beta, w/s).   Healing: where beta s < w too, up to 1
-// Signorini's and Coulomb's laws hold for what is left of the contact force without it. A bond
-// pulled apart along the normal bears at most sqrt(w C_N), at the gap sqrt(w/C_N), and takes w in
-// all. A node bonds without a force where it touches. The law holds at the end of an increment
-// (backward Euler): beta minimises  1/2 beta^2 s - w beta + 1/2 B (beta - beta_0)^2, B = b/dt, so
-// that the force has a potential and its tangent is symmetric.
+// Adhesion of a contact with an intensity beta of its bonds, 1 bonded and 0 free.       [RCC99]
+//
+// Per reference area of the surface, with the gap g >= 0 and the slip v_t since the node bonded:
+//   s = C_N g^2 + C_T |v_t|^2
+//   stored  1/2 beta^2 s [N/mm],     force on the body  -d(1/2 beta^2 s)/dx [MPa]
+//   -b dbeta/dt = beta s - w  where beta s > w, else 0;    b = 0:  beta = min(beta, w/s)
+// With healing, beta also rises to min(1, w/s). Signorini's and Coulomb's laws hold for the rest of
+// the contact force. A bond pulled along the normal bears at most sqrt(w C_N), at the gap
+// sqrt(w/C_N), and dissipates w in all. A node bonds when it touches, without a force.
+// The law holds at the end of an increment (backward Euler): beta minimises
+//   1/2 beta^2 s - w beta + 1/2 B (beta - beta_0)^2,     B = b/dt
+// so that the force has a potential and its tangent is symmetric.
 #pragma once
 
 #include <limits>

@@ -1,7 +1,10 @@
-// The contact law of one candidate as the root of a function, for Newton's method. [AC91]
-//   F_n = r_n - max(0, A),  A = r_n - rho x_n;   F_t = r_t - projection of s = r_t - rho x_t on the disc of radius mu A
-//   r, x  reaction [N] and relative position [mm], both (n, t1, t2);   rho > 0 [N/mm]
-// Semismooth: each of the three states has a derivative of its own.
+// The contact law of one candidate as the root of a function, for Newton's method.        [AC91]
+//   r reaction [N], x gap and slip [mm], both (n, t1, t2);   any rho > 0 [N/mm]
+//   A = r_n - rho x_n,   s = r_t - rho x_t
+//   F_n = r_n - max(0, A),   F_t = r_t - (s, or where |s| > mu A its shortened mu A s / |s|)
+// F = 0 holds exactly where r and x satisfy Signorini's and Coulomb's laws. The function has a kink
+// between open (A <= 0), stick (|s| <= mu A) and slip; each state has a derivative of its own, so
+// that Newton's method is a semismooth one.
 #pragma once
 
 #include "core/tensor/types.hpp"

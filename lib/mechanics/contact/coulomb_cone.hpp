@@ -1,8 +1,9 @@
-// Projection of a trial reaction on Coulomb's cone K_mu.                               [A23] eq.
-// 27, [dSF98]
-//   tau  trial reaction in the contact frame (n, t1, t2) [N]
-//   mu   friction coefficient, mu >= 0
-// Returns the closest admissible reaction and its state (open, stick, slip).
+// Projection of a trial reaction on Coulomb's cone K_mu: |r_t| <= mu r_n.   [A23] eq. 27, [dSF98]
+//   tau  trial reaction in the contact frame (n, t1, t2) [N];   mu >= 0 friction coefficient
+//   open   mu |tau_t| <= -tau_n          r = 0
+//   stick  |tau_t| <= mu tau_n           r = tau
+//   slip   otherwise                     r = tau - (|tau_t| - mu tau_n)/(1 + mu^2) (t - mu n),
+//                                        t = tau_t / |tau_t|
 // mu = 0 gives the frictionless half-line; tau on the boundary counts as stick.
 // [A23] prints the slip case with +mu n; that result leaves the cone. The projection needs -mu n.
 #pragma once

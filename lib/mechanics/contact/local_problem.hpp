@@ -1,11 +1,17 @@
-// The discrete frictional contact problem on k contacts, condensed to their own unknowns.   [A23]
-// eqs 22-27, [dSF98]
-//   x = W r + q,   per contact (n, t1, t2):   r in K_mu,   x_t + (x_n + mu |x_t|) n  in the dual cone, orthogonal to r
-//   W   (3k, 3k) compliance [mm/N], positive semidefinite, may be slightly unsymmetric (curved indenter)
-//   q   (3k) relative position without reaction [mm];  r (3k) reactions [N], start value in and answer out
-// Block Gauss-Seidel with the cone projection and one rho per contact; when it becomes slow,
-// semismooth Newton steps (Alart-Curnier form) follow, and the proximal point method if W is
-// singular. Whichever method found it, an answer is accepted by its residual in the natural map.
+// The frictional contact problem of k candidates, condensed to their own unknowns. [A23] eqs 22-27
+//   x = W r + q,   for each candidate (n, t1, t2):   r in the cone K_mu,
+//   x_t + (x_n + mu |x_t|) n  in the dual cone, orthogonal to r                            [dSF98]
+//   r (3k)      reactions [N], start value in and answer out
+//   q (3k)      gap and slip without reactions [mm]
+//   W (3k, 3k)  compliance [mm/N], positive semidefinite; a curved indenter makes it
+//               slightly unsymmetric
+// The second condition is the bipotential's form of both laws: no gap with a reaction, no slip
+// below the limit, friction against the slip.
+//
+// Method: block Gauss-Seidel, one candidate after the other, by projection on the cone
+// (coulomb_cone.hpp) with one rho each. Where it becomes slow, semismooth Newton steps follow
+// (alart_curnier.hpp), and the proximal point method if W is singular. Whichever method found it,
+// an answer is accepted by its residual in the natural map.
 #pragma once
 
 #include <vector>

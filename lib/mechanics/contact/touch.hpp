@@ -1,6 +1,12 @@
-// The first touch of an increment: how far a force-controlled indenter travels until it touches the
-// body, and the position from which the slip of a node is measured that touches within the
-// increment.
+// The first touch within an increment.
+//
+// The contact law holds at the end of an increment, for the slip of all of it. A node that touches
+// only on the way has slipped since its touch, not since the begin: the error would be of first
+// order in the increment. So the slip is measured from the place where the node would touch if it
+// went on as in the increment before:
+//   gap(u0 + z (u - u0), c0 + z (c - c0)) = 0,   0 <= z <= 1,   origin u0 + z (u - u0)
+// The same equation along its own direction gives the travel at which a force-controlled indenter
+// touches the body.
 #pragma once
 
 #include <functional>

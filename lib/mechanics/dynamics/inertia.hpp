@@ -5,17 +5,19 @@
 // Each scheme says how velocity and acceleration at the end of an increment of h seconds follow
 // from the displacements there. The increment is then solved like one without inertia, with a force
 // and a tangent more (assembly/added_term.hpp).
-//   generalised_alpha  Chung, Hulbert 1993, in the form of Arnold, Bruels 2007: the balance holds at
-//                      the end of the increment, where the acceleration is a; b carries the average:
+//   generalised_alpha  [CH93] in the form of [AB07]: the balance holds at the end of the increment,
+//                      where the acceleration is a; b carries the average:
 //                        u1 = u0 + h v0 + h^2 ((1/2 - beta) b0 + beta b1)
 //                        v1 = v0 + h ((1 - gamma) b0 + gamma b1)
 //                        (1 - am) b1 + am b0 = (1 - af) a1 + af a0
+//                        am = (2 rho_inf - 1) / (rho_inf + 1),  af = rho_inf / (rho_inf + 1)
+//                        gamma = 1/2 - am + af,  beta = (1 - am + af)^2 / 4
 //                      second order; rho_inf is what is left of the highest frequencies in a step
-//   energy_momentum    Simo, Tarnow 1992: balance in the middle of the increment, u_m = (u0 + u1)/2,
-//                      which is its unknown; a force along M (u1 - u0 - rigid part) makes the work
-//                      of the internal forces exactly the change of energy [Gonzalez 1996, for the
-//                      whole body]. Keeps the energy of a body that is held
-//   theta              Feng, Joli, Cros, Magnain 2005: impulses in the place of accelerations,
+//   energy_momentum    [ST92]: balance in the middle of the increment, u_m = (u0 + u1)/2, which is its
+//                      unknown; a force along M (u1 - u0 - rigid part) makes the work of the internal
+//                      forces exactly the change of energy ([GO96], for the whole body). Keeps the
+//                      energy of a body that is held
+//   theta              [FJCM05]: impulses instead of accelerations,
 //                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
 //                      F without R, which is the mean reaction of the increment
 // C = c_m M + c_k K(0), Rayleigh's damping: c_m damps rigid motions, too.
@@ -98,7 +100,7 @@ class Inertia : public AddedTerm {
   double work_of_gravity(const VecX& du, double dtravel) const;  // [N mm]
   double damped(const MotionState& before, const MotionState& after) const;  // [N mm]
   // Error of displacement in the increment, per time and in the norm of the kinetic energy, over
-  // the speed that belongs to `energy` [Zienkiewicz, Xie 1991].
+  // the speed that belongs to `energy` [ZX91].
   double error(const MotionState& after, double energy) const;
   // Size of M a [N].
   double force_scale() const { return (mass_.M * acceleration_).norm(); }

@@ -1,4 +1,6 @@
-// What a body in motion has beside its displacements, at the end of an increment.
+// The state of a body in motion at the end of an increment, in addition to its displacements:
+// velocities and accelerations, what the time scheme carries on (dynamics/inertia.hpp), and
+// energies. A stopped run continues from it with the same digits, so the solution file keeps it.
 #pragma once
 
 #include "core/tensor/types.hpp"

@@ -1,4 +1,8 @@
-// Linear systems whose matrix is given by its products with vectors only.
+// GMRES for linear systems whose matrix is known only by its products with vectors.
+//
+// The method looks for x in the space of b, A b, A^2 b, ..., one product a time, and takes the
+// vector with the smallest residual. It is quick if A is close to the identity, as K_0^-1 K is for
+// a factor K_0 of most of K: pressures on a free rim, friction.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,10 @@
 // Direct solution of K x = b for the symmetric tangent: CHOLMOD supernodal, and UMFPACK where K is
-// not positive definite. The pattern is analysed once. Rows named `last` are eliminated last, so
-// that the trailing block of the factor is the Cholesky factor of their Schur complement: their
-// compliance costs no extra solves.
+// not positive definite. The pattern is analysed once.
+//
+// Contact needs the compliance of its nodes. Their rows, `last`, are eliminated last. In blocks,
+//   K = [K11 K12; K21 K22],   L = [L1 0; X L2],   L2 L2^T = S = K22 - K21 K11^-1 K12
+// the last block L2 of the Cholesky factor is that of the Schur complement S, and forces on these
+// rows alone move them by S^-1 = L2^-T L2^-1: compliance() costs no solution with the whole factor.
 #pragma once
 
 #include <memory>

@@ -1,16 +1,19 @@
-// Iterative solution near incompressibility, without a factor of K: displacements d and volumetric
-// forces q of the cells together.
-//   K = A + B^T D B,   D d q = D B d  taken as unknown:    [ A   B^T  ] [d]   [f]
-//                                                          [ B  -D^-1 ] [q] = [g]
-// A   K without the dyads, but with a small bulk modulus: a matrix that suits multigrid
-// B   (cells, rows), D  (cells): a dyad of each cell
-// Flexible GMRES, preconditioned by the upper block triangle: a cycle of smoothed aggregation for
-// A, and for the Schur complement
-//   S^-1 = L^-1 (B M^-1 A M^-1 B^T + D^-1) L^-1,   M = diag A,   L = B M^-1 B^T + D^-1   by Cholesky                    after [EHSST06]
-// L includes the checkerboard pressures, to which hexahedra with one dilatation hardly react; a
-// mass matrix does not. It needs 10 iterations for a reduction by 1e-4, a mass matrix 100 to 200.
-// Divided among ranks, each holds the contribution of its own cells to A and B; vectors are
-// complete, and the same on all ranks.
+// Iterative solution near incompressibility, without a factor of K.
+//
+// The tangent of hexahedra with one dilatation each is K = A + B^T D B. A has a small bulk modulus,
+// B (cells, rows) holds the gradients of the mean dilatations, D (cells) the large rest of the bulk
+// modulus. D makes K too badly conditioned for iterations. With the volumetric forces q = D B d as
+// unknowns of their own, the system is not:
+//   [ A   B^T  ] [d]   [f]
+//   [ B  -D^-1 ] [q] = [g]
+// Flexible GMRES solves the system, preconditioned by its upper block triangle: for A a cycle of
+// smoothed aggregation (algebraic multigrid), for the Schur complement            after [EHSST06]
+//   S^-1 = L^-1 (B M^-1 A M^-1 B^T + D^-1) L^-1,   M = diag A,   L = B M^-1 B^T + D^-1 by Cholesky
+// L contains the checkerboard pressures, to which hexahedra with one dilatation hardly react; a
+// mass matrix does not. A reduction by 1e-4 needs 10 iterations, with a mass matrix 100 to 200.
+//
+// Divided among ranks, each holds what its own cells add to A and B. Vectors are whole, and the
+// same on all ranks.
 #pragma once
 
 #include <functional>

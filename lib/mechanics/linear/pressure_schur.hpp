@@ -1,6 +1,8 @@
-// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky. It is exact also if divided
-// among ranks (substructuring): each rank eliminates the cells in its interior, which leaves a full
-// matrix over the cells between ranks. Rank 0 factorizes that.
+// L = B M^-1 B^T + D^-1 over the cells (linear/mixed.hpp), by Cholesky: a sparse matrix that joins
+// cells with common nodes.
+//
+// Divided among ranks it stays exact, by substructuring: each rank eliminates the cells in its
+// interior, which leaves a full matrix over the cells between ranks. Rank 0 factorizes that one.
 #pragma once
 
 #include <memory>

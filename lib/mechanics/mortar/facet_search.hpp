@@ -1,5 +1,5 @@
-// Which facets may touch which: boxes around facets in a tree (R-tree of Boost.Geometry), whose
-// cost grows with n log n of the number of facets.
+// Which facets may lie opposite of which: boxes around facets in an R-tree (Boost.Geometry). For n
+// facets the search costs n log n, a comparison of all pairs n^2.
 #pragma once
 
 #include <array>

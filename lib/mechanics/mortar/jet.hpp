@@ -1,5 +1,7 @@
-// A number with its derivatives with respect to N variables. Sums, products and quotients follow
-// the rules of calculus, so that a function written for any number type is differentiated exactly.
+// Automatic differentiation: a number together with its derivatives by N variables.
+//   (v, d):   (a + b) = (a.v + b.v, a.d + b.d),   (a b) = (a.v b.v, a.v b.d + b.v a.d), ...
+// A function that is written for any number type is differentiated exactly, to rounding, when it is
+// called with Jets. A variable is a Jet with one derivative 1.
 #pragma once
 
 #include <Eigen/Core>

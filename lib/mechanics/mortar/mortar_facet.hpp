@@ -1,8 +1,14 @@
-// One facet of the non-mortar side with all that it overlaps: the weights of its corners, and their
-// derivatives with respect to the corners of all these facets.
-//   M = integral N_i N_j,  K = integral N_i N_k   over the overlaps
-//   D_i = sum_j M_ij;   Phi = A N,  A = (1 - beta) 1 + beta D M^-1;   own = A M, other = A K
-//   beta: 0 where little of the facet is covered, 1 where most of it is
+// One facet of the non-mortar side and all facets that lie opposite: weights of its corners in the
+// averages of surface_contact.hpp, and their derivatives with respect to all corners.
+//
+// Integrals over the overlaps (overlap.hpp), N_i of the own and N_k of the other facet:
+//   M_ij = integral N_i N_j,   K_ik = integral N_i N_k,   D_i = sum_j M_ij
+// The weight functions are Phi = A N with
+//   A = (1 - beta) 1 + beta D M^-1
+// beta = 1: dual functions, integral Phi_i N_j = D_i delta_ij, so that each node has a gap of its
+// own. beta = 0: the usual functions, which stay positive where little of the facet is covered and
+// M is nearly singular. beta goes smoothly from 0 to 1 with the share that is covered. The weights
+// are A M for the own and A K for the other corners.                          [WO00], [CB11]
 #pragma once
 
 #include <Eigen/Core>

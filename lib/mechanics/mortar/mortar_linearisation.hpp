@@ -1,9 +1,11 @@
-// Contact of two surfaces, linearised at a state: positions of the law and forces of the reactions
-// as they change with the nodes. All terms of the averages are followed: normals, overlaps, dual
-// functions, areas.
-//   law      q + L d   at each candidate (n, t1, t2): gap and slip
-//   forces   G (r + dr) + C d   on the nodes; C: present reactions that turn with their normals, on
-//            weights that change
+// Contact of two surfaces, linearised at a state: how gap and slip of each candidate, and the
+// forces of its reaction, change when the nodes of both sides move by d.
+//   law      x = q + L d               at each candidate (n, t1, t2)
+//   forces   f = G (r + dr) + C d      on the nodes of both sides
+// G spreads a reaction with the mortar weights. C comes from present reactions: they turn with
+// their normals, and act with weights that change. All terms are differentiated exactly, also
+// normals, overlaps and dual functions (automatic differentiation, jet.hpp), so that Newton's
+// method converges quadratically.                                        [PGGW10], [GPGW10]
 #pragma once
 
 #include <vector>

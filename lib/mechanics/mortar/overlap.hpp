@@ -8,8 +8,7 @@
 //   3. what is left is divided into triangles about its middle, with Gauss points in each
 //   4. each Gauss point is found in both facets (inverse of the bilinear map)
 // The number type T is double, or Jet (mortar/jet.hpp) where derivatives with respect to the
-// corners are asked for.                                            [Puso, Laursen 2004], [Popp et
-// al. 2010]
+// corners are computed as well.                                                  [PL04], [PGGW10]
 #pragma once
 
 #include <array>

@@ -11,9 +11,9 @@
 // A reaction r_i acts with w_ij r_i on the own nodes and with -w_ik r_i on those of the other side.
 // The weights of each side sum up to 1: action equals reaction. So does the moment, by a couple on
 // the other side that takes up jump_i x r_i.
-//   [Wohlmuth 2000], [Puso, Laursen 2004], [Popp, Gitterle, Gee, Wall 2010], [Gitterle et al. 2010]
+//                                                              [WO00], [PL04], [PGGW10], [GPGW10]
 //
-// Dual functions are those of the covered part of a facet [Cichosz, Bischoff 2011]. Where that part
+// Dual functions are those of the covered part of a facet [CB11]. Where that part
 // is small, they go over into the usual shape functions, which stay positive.
 #pragma once
 

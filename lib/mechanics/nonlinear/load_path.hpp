@@ -1,5 +1,11 @@
-// Increments along a path t = 0 ... 1: cut-back, growth and a callback per accepted step. Knows
-// neither Newton nor contact.
+// Increments along a path t = 0 ... 1. Knows neither Newton's method nor contact.
+//
+// Each increment is attempted by the caller. A failed one is halved, down to `smallest`. After an
+// easy one (few iterations) the next may be longer, up to `largest`. The path stops at each of
+// `stops`, where a history has a kink. With a duration, `first` and `largest` are fractions of a
+// stage, from one stop to the next, and the time error of viscous stresses or of inertia also
+// limits the length. Increments depend on the results alone, so that an interrupted path continues
+// with the same ones.
 #pragma once
 
 #include <functional>

@@ -1,19 +1,22 @@
-// Newton-Raphson on a problem given as functions: it knows no mechanics.               [A23]
-// section 2.5
+// Newton's method for a problem given as functions: it knows no mechanics.   [A23] section 2.5
+//   f(x) = 0:   K dx = -f(x),  x <- x + dx,  until |f| <= relative * reactions and `others` hold
+// The Problem's functions:
 //   assess(x, with_tangent)   residual and tangent at x; what is missing to convergence
-//   correction()              dx of the problem linearised at the last assessed x; empty where it cannot be solved
-//   correction_again()        dx at the last assessed x by the tangent of the last correction(); empty where that does not serve
-//   begins_again              there is one of the state before, which serves for the first correction: who has made it anyway
+//   correction()              dx by the tangent at the last assessed x; empty: not solvable
+//   correction_again()        dx at the last assessed x by the tangent of the last correction();
+//                             empty: that tangent does not serve
+//   begins_again              the tangent of the state before serves for the first correction
 //   admissible(x)             cheap test that x can be assessed (det F > 0)
-//   moved(dx, step)           told before x becomes x + step dx
-//   stopped()                 the user asked for an end: asked before every iteration
-//   size, least_force         of the body: they stand for limits that the options do not name
-// There is no test that the residual decreases: near incompressibility the first residuals of a
-// step are huge by nature. After a correction others with the same tangent follow (modified Newton)
-// for as long as they are cheaper: each takes off about the same part of the residual, and a new
-// tangent costs `cost_ratio` of them. What they leave is as large as the residual says, where
-// Newton's own correction would have left its square: they have to reach a thousandth of the usual
-// tolerance; who asks for less than that gets what he asks for.
+//   moved(dx, step)           called before x becomes x + step dx
+//   stopped()                 whether the user asked for an end; called before every iteration
+//   size, least_force         of the body: limits that the options do not name follow from them
+// A step is halved until it is admissible, but not until the residual falls: near incompressibility
+// the first residuals of a step are large by nature.
+//
+// Modified Newton: a new tangent costs `cost_ratio` corrections with an old one. The old one is
+// kept while its linear convergence reaches the end sooner. What it leaves is as large as the
+// residual shows, whereas a new tangent would have squared it. Such a solution therefore has to
+// reach a thousandth of the usual tolerance, unless the user set a wider one.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,9 @@
-// Adhesive bonds of all contacts in an increment: what they bear where the trial stands, and what
-// they become. They are forces on the body beside the reactions of the contact law, which hold for
-// what is left without them.
+// Adhesive bonds of all contacts in an increment: which forces they exert at a trial state, and how
+// their intensities change.
+//
+// The law of one bond is in contact/adhesion.hpp. Here it is multiplied by the area of each
+// candidate and added to the forces on the body, beside the reactions. Signorini's and Coulomb's
+// laws hold for these reactions alone, so the contact solvers do not know of bonds.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,9 @@
-// Candidates of contact condensed to their own unknowns: what forces on them move them, by the
-// body's last factor.
+// The matrices of the condensed contact problem (solve/contact_linearisation.hpp).
+//
+// A force s on the candidates moves them by W s, the compliance
+//   W = B^T K^-1 B,   B: frames of the candidates in the rows that are eliminated last
+// The factor of the body ends with the Cholesky factor of these rows' Schur complement, so W costs
+// solutions with that small factor only (linear/linear.hpp).
 #pragma once
 
 #include <vector>

@@ -1,16 +1,20 @@
-// Contact of many candidates in the sparse tangent itself: nothing is formed over pairs of
-// candidates.            [AC91], [HSW08]
-//   K d = rhs + sum N (s + D N^T d),   r = present + s       N: frame (n, t1, t2) of a candidate; law and D as in contact/contact.hpp
-// The rows of a candidate are turned into its own frame. Then
-//   closed   its movement along n is known, and leaves the system; r_n is what is left of its row
-//   sticks   so are all its movements
-//   slips    r_t = mu r_n e - k (1 - e e^T) x_t,  e along r_t - rho x_t:  the part with k and what turns with n join the matrix, that
-//            with r_n is not symmetric and is found by GMRES, which the factor preconditions
-//   open     r = 0
-// Semismooth Newton: who is closed, sticks or slips is judged from the answer (Alart-Curnier form),
-// until nobody changes. A few changes are left to GMRES, many take another factor. Closed gaps are
-// exact in every answer; the direction of slip is that of the answer before, so that it is found
-// together with the movement of the body.
+// Contact of many candidates in the sparse tangent, instead of condensed to them: no matrix over
+// pairs of candidates is formed.                                              [AC91], [HSW08]
+//
+// One linearised step of the body with contact reactions r = present + s is
+//   K d = rhs + sum N (s + D N^T d)
+// N: frame (n, t1, t2) of a candidate, D: turning of its reaction (contact/contact.hpp).
+// The rows of each candidate are turned into its frame. What the law says of them depends on its
+// state, which follows from r and x (gap and slip) as in contact/alart_curnier.hpp:
+//   open     r = 0: rows like any other
+//   closed   the movement along n is known and leaves the system; r_n is what its row lacks
+//   sticks   the same of all three movements
+//   slips    r_t = mu r_n e - k (1 - e e^T) x_t,   e the direction of r_t - rho x_t,
+//            k = rho p / (1 - p),  p = mu (r_n - rho x_n) / |r_t - rho x_t|
+// The part of slip with k is symmetric and joins the matrix. That with r_n is not; GMRES finds it,
+// with the factor as preconditioner. States are judged anew from each answer until none changes
+// (semismooth Newton): few changes are left to GMRES, many need another factor. Closed gaps are
+// exact in every answer. e is that of the answer before, and converges together with the body.
 #pragma once
 
 #include <functional>

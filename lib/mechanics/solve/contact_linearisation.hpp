@@ -1,9 +1,16 @@
-// The contact law linearised where an increment stands, on the compliance of the body: the
-// reactions after the next movement.
-//                                                                                      [A23] eqs 22-32
-// The body's last factor gives what forces on the candidates move them; the law on those that may
-// close is condensed to them (contact/local_problem.hpp), and where springs hold the body they are
-// taken out again (contact/supported_problem.hpp).
+// The contact law, linearised where an increment stands and condensed to the candidates.
+//
+// New reactions move the body, and the movement changes the reactions. Both follow from one small
+// problem over the candidates that may close. In their frames (n, t1, t2), s is a change of the
+// contact forces:
+//   d = move + W s           movement; move: without s, W: compliance, from the body's last factor
+//   r = present + s - E d    reaction; E: present reactions turn with the indenter; bonds; springs
+//   x = q + T d              gap and slip that the law sees
+// With A = 1 - E W this is r = b + A s. Where A is regular, s is eliminated:
+//   x = W_r r + q_r,  W_r = T W A^-1       solved by contact/local_problem.hpp
+// Where A is singular, as of a body that only contact holds, contact/supported_problem.hpp finds s.
+// The travel of an indenter under force control is one more unknown, found by secants within
+// bounds. The law of the cone holds exactly at each trial travel.            [A23] eqs 22-32
 #pragma once
 
 #include <functional>

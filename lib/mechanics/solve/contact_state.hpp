@@ -1,4 +1,5 @@
-// Where an increment with contact stands: what its law is linearised at.
+// Where an increment with contact stands: positions, indenters, reactions, and what the slip is
+// measured from. The contact law is linearised at this state (solve/contact_linearisation.hpp).
 #pragma once
 
 #include <vector>

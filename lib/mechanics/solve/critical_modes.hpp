@@ -1,6 +1,8 @@
-// The softest movements of a body at an equilibrium: eigenvectors of its constrained tangent K with
-// the eigenvalues closest to 0, by subspace iteration on K^-1. Near a critical point one of them is
-// nearly 0, and a few iterations suffice.
+// The softest movements of a body at an equilibrium: eigenvectors of its constrained tangent,
+//   K phi = lambda phi,    those with the smallest |lambda|
+// by subspace iteration: a few vectors are multiplied by K^-1 again and again, and K is projected
+// on the space that they span. A small |lambda| is a large eigenvalue of K^-1, so that one of
+// nearly 0, as near a critical point, is found in a few iterations.
 #pragma once
 
 #include <vector>

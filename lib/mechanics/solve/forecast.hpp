@@ -1,5 +1,12 @@
-// What a run will take, told before it: memory from the analysis of its own tangent, time from its
-// own operation counts and from how fast this machine multiplies matrices and assembles this body.
+// A forecast of memory and time, before a run begins.
+//
+// Memory follows from the symbolic analysis of the tangent. Time is a number of operations over
+// their speed:
+//   iteration   assembly of this body, timed once; flops of the factor; entries of the factor read
+//               twice for a solution; n^3 of the contact problem
+//   path        iterations that an increment of its length usually needs, times the increments
+// The speed of this machine is that of a dense matrix product, measured in 0.05 s. The numbers of
+// iterations were measured on indentations (make bench-forecasts compares forecasts with runs).
 #pragma once
 
 #include "mechanics/assembly/assembler.hpp"

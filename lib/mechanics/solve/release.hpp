@@ -1,9 +1,12 @@
-// Assembler in an increment where indenters adhere.
-// Bonds soften, and where more of the body's energy waits than they can take, they let go in a
-// jump: there is no equilibrium near the last one. Then, in an increment that is short enough,
-// equilibrium is followed from that of the bonds as they were, by bonds that come loose as slowly
-// as needed, b dbeta/dt with the greatest b first, to b = 0. What their viscosity takes is the
-// energy released.
+// Equilibrium of an increment in which adhesive bonds break.
+//
+// Bonds soften. Where the body stores more energy than they can take, no equilibrium is near the
+// last one, and the bonds break in a jump. An increment that is short enough for a jump then
+// follows it through states that are not in equilibrium with the bonds:
+//   -b dbeta/dt = beta s - w      with an artificial viscosity b of the bonds
+// b is as large as Newton's method needs to converge. It falls from one state to the next, and is 0
+// in the last one, which is an equilibrium. The work of b is the energy released (column
+// energy_released).
 #pragma once
 
 #include <functional>

@@ -1,14 +1,20 @@
-// Direct differentiation of an accepted state with respect to numbers of the scene, through contact
-// and friction: parameters of laws, friction, forces, and what is moved.
-//   balance        K u' - r' = -f_p               f_p: what the number changes of f_int where u of the free dofs stands still
-//   a candidate    open: r' = 0;  closed: gap' = 0, and without friction r' along the turning normal;  sticking: slip' = 0;
-//                  slipping: r_t = -mu r_n s, s the direction of the slip, with all of it differentiated
-//   slip           between what it is measured from, u_start (Statics, contact/touch.hpp), and u:  slip' needs u' of the increments before
-//   force control  the sum of the reactions along its direction stands still, and the indenter's travel has a derivative
-// All of them together are linear. They are solved with the factor of the accepted state, and
-// corrected by what K has not: the remainder's modulus of linear_dilatation as a function of u,
-// pressures on a free rim. Where a candidate stands on the edge between two states the derivative
-// is that of the state which it has.
+// Derivatives of an accepted state with respect to numbers of the scene: parameters of the
+// material, friction, forces, prescribed movements. Exact through contact and friction.
+//
+// A state satisfies balance and the contact law. Differentiated with respect to the number p, a
+// prime, both are linear in u' and r':
+//   balance    K u' - r' = -f_p     f_p: change of the internal force with p while u stands still
+//   candidate  open       r' = 0
+//              closed     gap' = 0; without friction r' follows the turning normal
+//              sticking   gap' = 0 and slip' = 0
+//              slipping   gap' = 0, and r_t = -mu r_n s differentiated; s: direction of the slip
+// The slip of an increment is measured from u_start (contact/touch.hpp), so that slip' needs u' of
+// the two states before: derivatives are computed along the path, increment by increment.
+// Under force control the sum of the reactions is given, and the travel has a derivative.
+//
+// The factor of the accepted state solves the system, and iterations correct it for what K leaves
+// out: the modulus of linear_dilatation as a function of u, and pressures on a free rim. On the
+// edge between two states of a candidate, the derivative is that of the state which it has.
 #pragma once
 
 #include <optional>

@@ -5,7 +5,7 @@
 // lambda above the shift sigma. Multiplying a few vectors by it again and again makes a small
 // space (block Krylov) that contains the wanted vectors more and more exactly; within that space
 // the problem is a small dense one.
-//                                           Grimes, Lewis, Simon 1994, SIAM J. Matrix Anal. 15:228
+//                                                                                        [GLS94]
 // A block instead of a single vector finds eigenvalues that are several times there, as those of a
 // sphere or of a body with symmetry always are. Sylvester's law of inertia then proves that none is
 // missing: K - s M has as many negative pivots as there are eigenvalues below s.

@@ -1,4 +1,12 @@
-// Natural vibrations of a body about an accepted state: (K - omega^2 M) u = 0.
+// Natural vibrations of a body about an accepted state, such as pressed skin:
+//   (K - omega^2 M) u = 0
+// K is the tangent of the state, M the mass matrix, contact is frozen (vibration/frozen_body.hpp).
+// The eigenvalue omega^2 is negative in a direction in which the state is unstable: a movement
+// grows by exp(growth t) instead of oscillating.
+//
+// A body that symmetry reduces also vibrates in ways that break the symmetry. They are solved on
+// the same mesh with other conditions on the mirror planes, one eigenvalue problem for each kind,
+// and merged. The eigenvalues are found and counted by vibration/eigenpairs.hpp.
 #pragma once
 
 #include <vector>

@@ -26,8 +26,8 @@ struct PlanReport {
 
 // What is written in addition to the Makefile.
 struct PlanFor {
-  bool slurm = false;      // scripts for Slurm (pipeline/slurm.hpp)
-  bool snakemake = false;  // a Snakefile (pipeline/snakefile.hpp)
+  bool slurm = false;      // scripts for Slurm (pipeline/plan/slurm.hpp)
+  bool snakemake = false;  // a Snakefile (pipeline/plan/snakefile.hpp)
 };
 
 // `folder` empty: runs/<name of the pipeline>. `bin` is the folder of the programs.

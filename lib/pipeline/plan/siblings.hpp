@@ -4,7 +4,7 @@
 // 90 - alpha they are images if the body is square and the indenter round. One of them need not be
 // solved. Plan does not know the geometry, so it only offers the solution of the earlier member to
 // the later one, at its port `mirror`. langer-solve copies that solution if the scenes are images,
-// and solves otherwise (mirror/mirror.hpp).
+// and solves otherwise (scene/run/mirrored_solution.hpp).
 //
 // A solution is offered if configs and inputs differ in fibre_angles only, symmetry is not none,
 // and the mesh and the errors do not depend on the member (no accuracy, fidelity, reduce,

@@ -29,8 +29,8 @@ struct FittedParameter {
   double truth = std::numeric_limits<double>::quiet_NaN();  // of synthetic data; otherwise NaN
   double factor = 1.959963984540054;  // standard errors to each end of a 95 % interval
   std::string key = "";               // its path in the config
-  // The 95 % interval if a bound of this or of another parameter cuts it (study/within_bounds.hpp).
-  // NaN: the interval follows from standard error and factor.
+  // The 95 % interval if a bound of this or of another parameter cuts it
+  // (statistics/within_bounds.hpp). NaN: the interval follows from standard error and factor.
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
 };

@@ -1,6 +1,6 @@
 // A scene that is its own image under a mirror plane or a half turn is solved on the part of the
 // body that decides the rest.
-//   recognised from  mesh and bodies, and what scene/image.hpp looks at: fibres, supports and imposed displacements, indenters and
+//   recognised from  mesh and bodies, and what scene/model/scene_image.hpp looks at: fibres, supports and imposed displacements, indenters and
 //                    their paths; all of them must agree
 //   two indenters    of which one is the other's image: the part has one of them, or half of both; each has its own force in results
 //   not recognised   indenters read from a file; planes and axes that are not parallel to the coordinate planes or do not pass

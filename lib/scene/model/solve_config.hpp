@@ -195,14 +195,14 @@ constexpr auto names(StabilityCheck) { return std::array{"auto", "each_step", "l
 enum class OnUnstable { warn, stop };
 constexpr auto names(OnUnstable) { return std::array{"warn", "stop"}; }
 
-// Symmetry by which the body is reduced before it is solved (scene/symmetry.hpp).
+// Symmetry by which the body is reduced before it is solved (scene/model/scene_symmetry.hpp).
 enum class SymmetryChoice { none, automatic, mirror_x, mirror_z, quarter, half_turn };
 constexpr auto names(SymmetryChoice) {
   return std::array{"none", "auto", "mirror_x", "mirror_z", "quarter", "half_turn"};
 }
 
 // Whether a block that is the same around an axis, but for its far sides, is solved as a section
-// (accuracy/section_in_place.hpp).
+// (accuracy/refinement/section_in_place.hpp).
 enum class Reduce { none, automatic };
 constexpr auto names(Reduce) { return std::array{"none", "auto"}; }
 
@@ -305,11 +305,11 @@ struct AccuracyConfig {
   }
 };
 
-// Named points of the measured front of accuracy against cost (accuracy/accuracy.hpp).
+// Named points of the measured front of accuracy against cost (accuracy/refinement/accuracy.hpp).
 enum class Fidelity { draft, standard, reference };
 constexpr auto names(Fidelity) { return std::array{"draft", "standard", "reference"}; }
 
-// How the errors of a result are estimated (accuracy/error_estimate.hpp).
+// How the errors of a result are estimated (accuracy/estimate/error_estimate.hpp).
 enum class EstimateBy { none, recovery, refinement, automatic, dual };
 constexpr auto names(EstimateBy) {
   return std::array{"none", "recovery", "refinement", "auto", "dual"};
@@ -318,7 +318,7 @@ constexpr auto former_names(EstimateBy) {
   return std::array{FormerWord{"second_rung", "refinement"}};
 }
 
-// What a block or disc leaves out that stands for a larger body (accuracy/truncation.hpp).
+// What a block or disc leaves out that stands for a larger body (accuracy/estimate/truncation.hpp).
 enum class Truncation { sides, bottom };
 constexpr auto names(Truncation) { return std::array{"sides", "bottom"}; }
 

@@ -1,7 +1,8 @@
 // A solution that is the image of one that is there: of a member of a sweep by another that differs
 // in its fibre angles only. Mirror planes, half and quarter turns about y through the middle of the
 // mesh are tried, the identity too (0 and 180 degrees are the same fibres); scene and mesh have to
-// be images by scene/image.hpp, and each indenter and the first family of fibres its own.
+// be images by scene/model/scene_image.hpp, and each indenter and the first family of fibres its
+// own.
 //   u, reactions, forces    turned, of the node that is the image
 //   J, stresses, I4_bar     of the cell that is the image
 // The file is that of langer-solve to the last dataset; /provenance/image_of says what it is the

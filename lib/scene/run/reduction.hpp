@@ -1,6 +1,6 @@
 // The part of a body that is solved in place of the whole.
 //   none         the body itself
-//   symmetry     what mirror planes or a half turn leave of it (scene/symmetry.hpp)
+//   symmetry     what mirror planes or a half turn leave of it (scene/model/scene_symmetry.hpp)
 //   section      a section as a part of the body that it stands for (mesh/section.hpp)
 //   homogeneous  one hexahedron, where all cells deform alike (run/homogeneous.hpp)
 #pragma once

@@ -1,6 +1,6 @@
 // The border to PETSc: plain arrays over one function pointer each. PETSc brings MPI and fifty
 // libraries; they live in a module, lib/langer/langer_petsc.so, that is loaded when a body is large
-// enough for an iterative solution (load.hpp).
+// enough for an iterative solution (petsc_load.hpp).
 #pragma once
 
 #include <functional>
