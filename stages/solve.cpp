@@ -205,6 +205,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
               of_vibration, recording.impact_summary()});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
+  report_results(job.voice(), config, run, end.last, errors.at_end);
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
   if (decision.action == Decision::Action::stop) model.require_accuracy(errors.at_end, job.output);
