@@ -152,6 +152,20 @@ std::vector<int> nodes_under_pressure(const Mesh& mesh, const Tree& config) {
   return {};
 }
 
+// The node in the middle of a surface; of an axisymmetric section that on the axis.
+std::optional<std::size_t> apex_of(const Mesh& mesh, const std::vector<int>& nodes) {
+  Vec3 middle = Vec3::Zero();
+  for (const int node : nodes)
+    middle += mesh.X[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric) middle[0] = 0;
+  std::optional<std::size_t> apex;
+  for (const int node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    if (!apex || (mesh.X[i] - middle).norm() < (mesh.X[*apex] - middle).norm()) apex = i;
+  }
+  return apex;
+}
+
 // Describes a suction: its pressure, and how far the apex of the dome has come since it began. The
 // plate of a probe may have been pressed on before.
 void describe_suction(Answer& answer, const SolutionReader& solution, const Tree& config,
@@ -173,10 +187,8 @@ void describe_suction(Answer& answer, const SolutionReader& solution, const Tree
   std::vector<Vec3> from(sucked.u.size(), Vec3::Zero());
   if (before) from = before->u;
   double height = 0;
-  for (const int node : nodes_under_pressure(mesh, config)) {
-    const auto i = static_cast<std::size_t>(node);
-    height = std::max(height, (sucked.u[i] - from[i]).norm());
-  }
+  if (const auto apex = apex_of(mesh, nodes_under_pressure(mesh, config)))
+    height = (sucked.u[*apex] - from[*apex]).norm();
   const Tree* contacts = config.find("contacts");
   std::string through;
   if (contacts && !contacts->map.empty())

@@ -29,7 +29,7 @@ run(0 ${BIN}/langer dossier run --use "compare two ointments" --question "which 
 set(dossier "${said}")
 expect_said("Context of use: compare two ointments")
 expect_said("## 4 Calculation verification")
-expect_said("thirteen credibility factors")
+expect_said("The thirteen factors of ASME V&V 40-2018.")
 expect_said("**Missing:** a sensitivity analysis")
 expect_said("--tests build/Testing/Temporary/LastTest.log`")
 expect_said("All 2 steps are up to date")

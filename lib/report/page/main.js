@@ -25,6 +25,13 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
   L.el('dl', {}, ...a.facts.flatMap(f => [L.el('dt', {}, f.name), L.el('dd', {}, f.text)]))));
 {
   const order = ['warning', 'note', 'good'], sorted = data.verdicts.slice().sort((a, b) => order.indexOf(a.level) - order.indexOf(b.level));
+  // error bars of further quantities of one file: one note
+  const bar = ' by mesh and increments', isBar = v => v.level === 'note' && v.text.endsWith(bar);
+  for (const of of new Set(sorted.filter(isBar).map(v => v.of))) {
+    const bars = sorted.filter(v => isBar(v) && v.of === of);
+    bars.slice(1).forEach(v => sorted.splice(sorted.indexOf(v), 1));
+    bars[0] = sorted[sorted.indexOf(bars[0])] = { ...bars[0], text: bars.map(v => v.text.slice(0, -bar.length)).join(', ') + bar };
+  }
   // what is said of several members in the same words stands once
   const alike = new Map(), key = v => v.level + v.text.replace(/[-\d.]+(e[-+]\d+)?/g, '#');
   sorted.forEach(v => alike.set(key(v), (alike.get(key(v)) || []).concat(v)));
