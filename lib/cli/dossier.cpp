@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -342,8 +343,17 @@ void write_calculation(Document& document, const RunResults& results) {
       std::string limit = "none";
       if (const auto found = number_of(summary, name + "_limit"))
         limit = fmt::format("{:.6g}", *found);
-      errors.push_back({target, name, s.unit, fmt::format("{:.3g}", s.value), part("cells"),
-                        part("increments"), part("scatter"), limit});
+      // Of an estimate without a limit the summary does not have the number itself.
+      std::string value = "in the steps";
+      std::string percent = "-";
+      const report::KnownError known =
+          report::known_error(summary, name, std::numeric_limits<double>::quiet_NaN());
+      if (std::isfinite(known.value)) {
+        value = report::rounded(known.value, known.percent);
+        percent = fmt::format("{:.2g}", known.percent);
+      }
+      errors.push_back({target, name, s.unit, value, fmt::format("{:.3g}", s.value), percent,
+                        part("cells"), part("increments"), part("scatter"), limit});
       any = true;
     }
     if (!any) without.push_back(target);
@@ -358,8 +368,8 @@ void write_calculation(Document& document, const RunResults& results) {
                       fmt::format("{:.2g}", penetration)});
   }
   if (!errors.empty())
-    document.table({"solution", "quantity", "unit", "error bar", "mesh", "increments", "scatter",
-                    "extrapolated limit"},
+    document.table({"solution", "quantity", "unit", "value", "error bar", "%", "mesh", "increments",
+                    "scatter", "extrapolated limit"},
                    errors);
   for (const std::string& target : without)
     document.missing("an error estimate of " + target,
@@ -395,7 +405,7 @@ void write_inputs(Document& document, const RunResults& results) {
       const auto [low, high] = interval_95(p);
       std::string interval = "not determined by the data";
       if (std::isfinite(low) && std::isfinite(high))
-        interval = fmt::format("{:.4g} to {:.4g}", low, high);
+        interval = fmt::format("{:.6g} to {:.6g}", low, high);
       rows.push_back({target, p.name, p.unit, fmt::format("{:.5g}", p.value), interval});
     }
   }
@@ -423,9 +433,8 @@ void write_inputs(Document& document, const RunResults& results) {
       if (s.name.ends_with("_deviation"))
         deviations.push_back({target, s.name, fmt::format("{:.4g}", s.value), s.unit});
   if (deviations.empty()) {
-    document.missing(
-        "the uncertainty that the parameters give the result",
-        "sensitivity: parameters in the solve config (pipelines/forward_uncertainty.yaml)");
+    document.missing("the uncertainty that the parameters give the result",
+                     "uncertainty: linear in the solve config, behind a fitted material");
   } else {
     document.table({"solution", "standard deviation of", "value", "unit"}, deviations);
   }
