@@ -168,6 +168,8 @@ struct RunResults {
   }
 };
 
+// The rules of the Makefile say which files belong to the run. Other files in its folder are not
+// evidence: nothing says how they were made.
 RunResults results_of(const std::string& folder) {
   RunResults results{folder, {}, {}};
   for (const MadeBy& rule : rules_of(folder)) {
@@ -179,12 +181,14 @@ RunResults results_of(const std::string& folder) {
   return results;
 }
 
+// A number of a summary; none if the file does not have it. A missing number is never taken as 0.
 std::optional<double> number_of(const std::vector<Summary>& summary, const std::string& name) {
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return std::nullopt;
   return found->value;
 }
 
+// The version and revision of the program that wrote a file; empty in files of old versions.
 std::string code_version_of(const std::string& path) {
   const h5::File file = h5::File::open(path);
   if (!file.root().has("provenance")) return "";
@@ -215,6 +219,8 @@ bool names_tolerance(const std::string& claim) {
   return false;
 }
 
+// A log of ctest has for each test a line "3/12 Test: <name>", its output, and "Test Passed." or
+// "Test Failed." after it. Tests of programs have no folder in their names.
 TestLog read_test_log(const std::string& path) {
   require_file(path);
   std::ifstream in(path);
@@ -283,6 +289,8 @@ void write_model(Document& document, const RunResults& results) {
   }
 }
 
+// Which programs made the files, and what was verified about them. The tests are those of a build,
+// which a run does not hold, so their log is named by the user.
 void write_code_verification(Document& document, const RunResults& results,
                              const DossierWords& words) {
   document.section("3 Code verification");
@@ -378,6 +386,8 @@ void write_calculation(Document& document, const RunResults& results) {
   if (!solver.empty())
     document.table({"solution", "steps", "largest relative residual", "largest penetration, mm"},
                    solver);
+  // Use error is what a person may do wrong: results of another config than the one that is shown,
+  // or of other data. make and the content ids in the files find both.
   document.part("Use error");
   const std::vector<StepReasons> steps = explain(results.folder);
   std::vector<Row> stale;
@@ -415,6 +425,8 @@ void write_inputs(Document& document, const RunResults& results) {
   } else {
     document.table({"material", "parameter", "unit", "value", "95 % interval"}, rows);
   }
+  // All measures are listed with their own names: Morris, Sobol and one-at-a-time studies have
+  // different ones, and none of them is better for every question.
   document.part("Sensitivity of the result to its inputs");
   std::vector<Row> sensitivity;
   for (const std::string& target : results.of("sensitivity"))
@@ -426,6 +438,8 @@ void write_inputs(Document& document, const RunResults& results) {
   } else {
     document.table({"file", "measure", "value", "unit"}, sensitivity);
   }
+  // What the covariance of the parameters does to the forces. Parts without one parameter, such as
+  // force_deviation_without_a1, stay in the file.
   document.part("Uncertainty of the result");
   std::vector<Row> deviations;
   for (const std::string& target : results.of("solve"))
@@ -466,6 +480,8 @@ void write_comparison(Document& document, const RunResults& results) {
     document.paragraph(
         "These tests calibrate the parameters. Agreement with them is no validation.");
   }
+  // Validation needs data that the fit has not seen. A figure of the post config that draws
+  // measured points over a curve is such a comparison; what it shows is for the reader to judge.
   document.part("Comparison with experiments: validation");
   std::vector<Row> measured;
   for (const std::string& target : results.of("post")) {
@@ -481,7 +497,7 @@ void write_comparison(Document& document, const RunResults& results) {
     }
   }
   if (measured.empty()) {
-    document.missing("data that the fit did not use, beside the prediction",
+    document.missing("data that the fit did not use, compared with the prediction",
                      "figures: {<name>: {points: {file: measured.csv, ...}}} in the post config");
   } else {
     document.table({"curves", "figure", "measured in", "picture"}, measured);

@@ -57,10 +57,10 @@ TEST_CASE(
 }
 
 TEST_CASE("a number is shown to the digit that its error leaves known") {
-  CHECK(rounded(9.497, 1.6) == "9.50");     // 0.152: two digits of an error that begins with 1
-  CHECK(rounded(9.511, 8.8) == "9.5");      // 0.84
-  CHECK(rounded(9.511, 100) == "10");       // no digit is known; the first one stays
-  CHECK(rounded(1234.5, 5) == "1230");      // 62
+  CHECK(rounded(9.497, 1.6) == "9.50");  // 0.152: two digits of an error that begins with 1
+  CHECK(rounded(9.511, 8.8) == "9.5");   // 0.84
+  CHECK(rounded(9.511, 100) == "10");    // no digit is known; the first one stays
+  CHECK(rounded(1234.5, 5) == "1230");   // 62
   CHECK(rounded(-0.0123456, 3) == "-0.0123");
   CHECK(rounded(2, 0) == "2");
   CHECK(rounded(0, 5) == "0");

@@ -33,6 +33,7 @@ std::optional<std::size_t> row_at(const std::vector<double>& seconds, double wan
 // The area under a column over another one, between two rows.
 double area_under(const std::vector<double>& over, const std::vector<double>& of, std::size_t from,
                   std::size_t to) {
+  // Trapezoids: the columns are straight lines between states, as in value_where.
   double area = 0;
   for (std::size_t k = from + 1; k <= to; ++k) {
     area += 0.5 * (of[k] + of[k - 1]) * (over[k] - over[k - 1]);
@@ -132,6 +133,7 @@ SuctionCycles suction_cycles(const std::vector<double>& seconds, const std::vect
   found.uf = height_at(end_of_suction) - zero;
   found.ur = found.uf - (height_at(end_of_suction + choice.immediate) - zero);
   found.ua = found.uf - (height_at(choice.begins + period) - zero);
+  // R3 and R4 are those of the last complete cycle, and count from the same zero as the first.
   const double last = choice.begins + (found.cycles - 1) * period;
   found.last_maximum = height_at(last + *choice.suction) - zero;
   found.last_minimum = height_at(last + period) - zero;
