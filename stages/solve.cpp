@@ -205,6 +205,8 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
               of_vibration, recording.impact_summary()});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
+  // Forces with the deviation of the parameters have been named with their error bars.
+  if (forces.empty()) report_results(job.voice(), config, run, end.last, errors.at_end);
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
   if (decision.action == Decision::Action::stop) model.require_accuracy(errors.at_end, job.output);
@@ -215,6 +217,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
 
 Summaries solve(const Job<SolveConfig>& given) {
   Job<SolveConfig> job = given;
+  if (job.dry_run) job.verbose = true;  // asked what it would do, it says all of it
   expand_bodies(job.config, job.where.tree);
   // A worker rank notes a signal and waits for rank 0, which ends the run for all.
   std::optional<Interruptible> worker_signals;

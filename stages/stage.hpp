@@ -46,6 +46,10 @@ struct Task {
   void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
     voice().say(form, std::forward<Parts>(parts)...);
   }
+  template <class... Parts>
+  void detail(fmt::format_string<Parts...> form, Parts&&... parts) const {
+    voice().detail(form, std::forward<Parts>(parts)...);
+  }
   // A warning is printed with --quiet, too.
   template <class... Parts>
   void warn(fmt::format_string<Parts...> form, Parts&&... parts) const {

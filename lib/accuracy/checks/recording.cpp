@@ -114,7 +114,7 @@ bool Recording::with_other_settings() const {
 }
 
 RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::string& loose) {
-  if (!loose.empty()) voice.say("{}: only contact holds it", loose);
+  if (!loose.empty()) voice.detail("{}: only contact holds it", loose);
   if (with_other_settings())
     voice.say(
         "these steps were made with other settings: /provenance/earlier of the result holds them");
@@ -124,7 +124,7 @@ RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::stri
   if (const auto& critical = watch_.critical(); critical && !critical->mode.empty())
     write_mode(run_.mesh, *critical, output_);
   for (const std::string& line : watch_.warnings()) voice.warn(line);
-  for (const std::string& line : watch_.notes()) voice.say("{}", line);
+  for (const std::string& line : watch_.notes()) voice.detail("{}", line);
   if (end.path.complete)
     for (const std::string& line : watch_.contact_warnings()) voice.warn(line);
   need_the_end(end, loose);

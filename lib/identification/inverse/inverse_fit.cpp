@@ -33,7 +33,7 @@ std::function<void(const std::string&)> throttled(const Voice& voice, const std:
   return [voice, level, last = wall_seconds()](const std::string& line) mutable {
     if (wall_seconds() - last < 2) return;
     last = wall_seconds();
-    voice.say("{}{}", level, line);
+    voice.progress(level + line);
   };
 }
 

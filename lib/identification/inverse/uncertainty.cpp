@@ -208,7 +208,7 @@ void report_forces(const Voice& voice, const ParameterKnowledge& known,
   if (known.left_out.empty()) return;
   std::string names;
   for (const std::string& name : known.left_out) append(names, ", ", name);
-  voice.say("not included, since the fit gives them no variance: {}", names);
+  voice.detail("not included, since the fit gives them no variance: {}", names);
 }
 
 }  // namespace langer
