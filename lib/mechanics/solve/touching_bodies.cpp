@@ -47,6 +47,8 @@ void TouchingBodies::add_forces(const std::vector<Vec3>& X, const VecX& u, const
 std::vector<ContactDefect> TouchingBodies::defects(const std::vector<Vec3>& X, const VecX& u,
                                                    const VecX& u0, const Reactions& r,
                                                    std::size_t first, double motion) {
+  // Bodies that only inertia moves stick to each other while both of them go far.
+  if (motion == 0) motion = (u - u0).lpNorm<Eigen::Infinity>();
   const VecX x = positions(X, u);
   const VecX x0 = positions(X, u0);
   const auto& averages = at(X, u);
@@ -54,6 +56,22 @@ std::vector<ContactDefect> TouchingBodies::defects(const std::vector<Vec3>& X, c
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     out.push_back(mortar_defect(surfaces_[s], averages[s], x, x0, r[first + s], motion));
   return out;
+}
+
+double TouchingBodies::work_of_friction(const std::vector<Vec3>& X, const VecX& u, const VecX& du,
+                                        const Reactions& r, std::size_t first) {
+  double work = 0;
+  const auto& averages = at(X, u);
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    if (surfaces_[s].mu == 0) continue;
+    for (const MortarNode& node : averages[s]) {
+      const Vec3& force = r[first + s][static_cast<std::size_t>(node.candidate)];
+      if (force.isZero(0)) continue;
+      const Vec3 moved = node.average(du);
+      work += force.dot(moved - node.normal * node.normal.dot(moved));
+    }
+  }
+  return work;
 }
 
 std::vector<double> TouchingBodies::penetrations(const std::vector<Vec3>& X, const VecX& u) const {

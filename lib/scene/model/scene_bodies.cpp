@@ -281,6 +281,7 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     refuse_overlap(surface, mesh, key, where, errors);
     scene.surfaces.push_back(std::move(surface));
   }
+  if (config.in_motion()) return;  // inertia resists every motion
   if (errors.size() == before && (!config.bodies.empty() || !scene.surfaces.empty()))
     refuse_loose(scene, mesh, prescribed, where, errors);
 }

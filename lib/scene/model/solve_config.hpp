@@ -233,6 +233,7 @@ struct SceneBodyConfig {
   std::optional<FibreField> fibre_field;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
+  std::optional<std::array<double, 3>> velocity, spin;
   static void fields(auto& v) {
     v(&SceneBodyConfig::mesh, "mesh", unit::none, "its mesh", required);
     v(&SceneBodyConfig::material, "material", unit::none,
@@ -243,6 +244,11 @@ struct SceneBodyConfig {
       "directions that vary from cell to cell");
     v(&SceneBodyConfig::supports, "supports", unit::none, "sets of this mesh that are held");
     v(&SceneBodyConfig::loads, "loads", unit::none, "loads on sets of this mesh");
+    v(&SceneBodyConfig::velocity, "velocity", "mm/s",
+      "with dynamics: of this body at the beginning; none: that of dynamics");
+    v(&SceneBodyConfig::spin, "spin", "1/s",
+      "with dynamics: angular velocity of this body at the beginning, about the middle of its box; "
+      "none: it moves as dynamics says");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
@@ -591,6 +597,16 @@ struct SolveConfig {
         found.push_back({"contacts." + name + ".free", "found without dynamics",
                          "dynamics: {density_kg_m3: 1100}",
                          "an indenter with mass moves in time, with a body that has inertia"});
+    for (const auto& [name, body] : bodies) {
+      if (in_motion()) break;
+      const auto moves = [&](bool given, const char* key) {
+        if (!given) return;
+        found.push_back({"bodies." + name + "." + key, "found without dynamics",
+                         "dynamics: {density_kg_m3: 1100}", "an equilibrium has no velocity"});
+      };
+      moves(body.velocity.has_value(), "velocity");
+      moves(body.spin.has_value(), "spin");
+    }
     if (!in_motion()) return;
     const auto refuse = [&](const std::string& key, const std::string& expected) {
       found.push_back({key, "found together with dynamics", expected, "it is for equilibria"});
@@ -598,7 +614,6 @@ struct SolveConfig {
     if (path.arc_length) refuse("path.arc_length", "path: {seconds: ...}");
     if (branch) refuse("branch", "none");
     if (imperfection) refuse("imperfection", "none");
-    if (!bodies.empty()) refuse("bodies", "one mesh");
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (loads[i].volume) refuse("loads[" + std::to_string(i) + "].volume", "pressure");
     if (!path.seconds)
