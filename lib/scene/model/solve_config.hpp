@@ -96,7 +96,8 @@ struct ContactConfig {
     v(&ContactConfig::rigid, "rigid", unit::none,
       "shape and place of the indenter; or `against` instead");
     v(&ContactConfig::against, "against", unit::none,
-      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8");
+      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8; the "
+      "set of `on` itself: a surface that may fold and touch itself");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -164,13 +165,7 @@ struct ContactConfig {
     refuse(control.has_value(), "control", "a load {force: ...} pushes a body");
     refuse(rotation.has_value(), "rotation", "a load {rotation: ...} turns a set");
     refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
-    if (on.empty())
-      found.push_back({"on", "missing", "the set that touches `against`", ""});
-    else if (on == *against)
-      found.push_back(
-          {"against", "found the set of `on`", "the set of another surface",
-           "a surface that touches itself is not computed yet: name two parts of it that "
-           "share no node"});
+    if (on.empty()) found.push_back({"on", "missing", "the set that touches `against`", ""});
     return found;
   }
   std::vector<Complaint> of_rotation() const {
