@@ -115,8 +115,6 @@ TEST_CASE("two spheres of other radii and moduli touch as Hertz says") {
   const double radius = std::cbrt(3 * std::abs(force) * R * compliance / 4);
   const double pressure = 1.5 * std::abs(force) / (std::numbers::pi * radius * radius);
   const double area = 4 * last.scalars.at("contact_area_pair");
-  MESSAGE("force ", force, " radius ", radius, " of area ", std::sqrt(area / std::numbers::pi),
-          " pressure ", pressure, " at the centre ", centre, " iterations ", solution.iterations);
   CHECK(radius > 0.6 * fine);
   CHECK(radius < fine);
   CHECK(centre == near(pressure, 0.01));
