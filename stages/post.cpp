@@ -343,7 +343,9 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
     else if (line.needs.shapes && !available.energy)
       complaints.push_back({key + ".field",
                             fmt::format("{} needs the shapes of the indenters", line.word),
-                            "a solution whose config this version can read", ""});
+                            "a solution whose config this version can read, without contact of "
+                            "deformable surfaces",
+                            ""});
   };
   for (const auto& [name, map] : config.maps) needs_contact("maps." + name, map.field);
   for (const auto& [name, keyed] : renders) needs_contact(keyed.first, keyed.second.field);

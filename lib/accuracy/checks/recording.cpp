@@ -78,7 +78,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       config_(identity.config),
       observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
-      impact_(run.scene),
+      impact_(run.scene, run.inertia.get()),
       collect_(collector(config)),
       file_(
           output,

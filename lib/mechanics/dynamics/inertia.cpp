@@ -94,6 +94,14 @@ MotionState Inertia::at_start() const {
     const Vec3 v = options_.velocity + options_.spin.cross(arm);
     start.v.segment<3>(3 * i) = own_movement(dofs, i) * v;
   }
+  for (const MovingBody& moving : options_.bodies) {
+    for (int node : moving.nodes) {
+      if (!moves_itself(body_, node)) continue;
+      const Vec3 arm = body_.mesh().X[static_cast<std::size_t>(node)] - moving.spin_centre;
+      start.v.segment<3>(3 * node) =
+          own_movement(dofs, node) * (moving.velocity + moving.spin.cross(arm));
+    }
+  }
   for (const Prescribed& p : dofs.prescribed) start.v[p.dof] = p.rate(0) / options_.seconds;
 
   VecX f = weight_;
@@ -323,6 +331,30 @@ Vec3 Inertia::momentum(const MotionState& motion) const {
   for (Eigen::Index i = 0; i < Mv.size(); i += 3) sum += Mv.segment<3>(i);
   for (int k = 0; k < 3; ++k) {
     if (!translates_[k]) sum[k] = 0;  // of the parts that symmetry adds, the sum vanishes
+  }
+  return sum;
+}
+
+// Bodies share no node, so the columns of M at the nodes of one have entries at its nodes only.
+Vec3 Inertia::momentum(const MotionState& motion, const MovingBody& body) const {
+  Vec3 sum = Vec3::Zero();
+  for (int node : body.nodes) {
+    for (int k = 0; k < 3; ++k) {
+      const int dof = 3 * node + k;
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass_.M, dof); entry; ++entry) {
+        if (translates_[k]) sum[k] += entry.value() * motion.v[entry.row()];
+      }
+    }
+  }
+  return sum;
+}
+
+double Inertia::mass_of(const MovingBody& body) const {
+  double sum = 0;
+  for (int node : body.nodes) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(mass_.M, 3 * node); entry; ++entry) {
+      sum += entry.value();
+    }
   }
   return sum;
 }

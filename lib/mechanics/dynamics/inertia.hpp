@@ -25,6 +25,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/tensor/types.hpp"
@@ -36,6 +37,15 @@ namespace langer {
 
 enum class Scheme { generalised_alpha, energy_momentum, theta };
 constexpr auto names(Scheme) { return std::array{"generalised_alpha", "energy_momentum", "theta"}; }
+
+// One of several bodies that share no node, and how it moves at the beginning.
+struct MovingBody {
+  std::string name;
+  std::vector<int> nodes;
+  Vec3 velocity = Vec3::Zero();  // [mm/s]
+  Vec3 spin = Vec3::Zero();      // [1/s]
+  Vec3 spin_centre = Vec3::Zero();
+};
 
 struct InertiaOptions {
   std::vector<double> density;  // by body [t/mm3]
@@ -49,9 +59,10 @@ struct InertiaOptions {
   Vec3 velocity = Vec3::Zero();  // of the body at the beginning [mm/s]
   Vec3 spin = Vec3::Zero();      // of the body at the beginning [1/s]
   Vec3 spin_centre = Vec3::Zero();
-  double travel_mass = 0;      // of an indenter with inertia [t]
-  double travel_velocity = 0;  // along its direction [mm/s]
-  double travel_weight = 0;    // along its direction [N]
+  std::vector<MovingBody> bodies;  // several, each with a velocity of its own; empty: one
+  double travel_mass = 0;          // of an indenter with inertia [t]
+  double travel_velocity = 0;      // along its direction [mm/s]
+  double travel_weight = 0;        // along its direction [N]
   std::vector<char> massless;  // by node: the mass of contact nodes is moved inwards; empty: none
   double seconds = 1;          // of the path
 };
@@ -96,8 +107,10 @@ class Inertia : public AddedTerm {
 
   double at_start_kinetic() const { return kinetic_at_start_; }  // [N mm]
   double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
-  Vec3 momentum(const MotionState& motion) const;                // of the body [N s]
-  double work_of_gravity(const VecX& du, double dtravel) const;  // [N mm]
+  Vec3 momentum(const MotionState& motion) const;                // of all bodies [N s]
+  Vec3 momentum(const MotionState& motion, const MovingBody& body) const;
+  double mass_of(const MovingBody& body) const;                              // [t]
+  double work_of_gravity(const VecX& du, double dtravel) const;              // [N mm]
   double damped(const MotionState& before, const MotionState& after) const;  // [N mm]
   // Error of displacement in the increment, per time and in the norm of the kinetic energy, over
   // the speed that belongs to `energy` [ZX91].

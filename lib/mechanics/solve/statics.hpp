@@ -231,6 +231,7 @@ class Statics {
   VecX solve_middle(const VecX& rhs);
   double work_from_outside(const VecX& du, const VecX& f_ext, const VecX& reactions,
                            const Reactions& r) const;
+  double work_of_friction(const VecX& u1, const VecX& du);
   VecX trial_reactions() const;
   double required_force() const;  // of the indenter under force control or with mass, on the body
   double force_falls() const;     // what that loses per travel

@@ -4,7 +4,8 @@
 //   accept   velocities and accelerations at the end, and the account of energies:
 //              kinetic + stored + viscous + damped  =  at the beginning + work from outside + balance
 //            Work from outside is that of supports, loads, weight and indenters, with friction as
-//            work that these take; `balance` is what the scheme gains or loses.
+//            work that these take, and of friction between deformable surfaces; `balance` is what
+//            the scheme gains or loses.
 #include <cmath>
 #include <utility>
 
@@ -32,6 +33,8 @@ void Statics::begin_motion(double seconds) {
   if (controlled_ >= 0 && controlled()->control->free()) travel_ += inertia.predicted_travel();
   if (controlled_ >= 0 && !controlled()->control->free()) move_to_touch();
   slip_from_touch();
+  if (!bodies_.empty())
+    bodies_.turn(equilibrium_.mesh().X, now_.u, u_ - now_.u, r_, contacts_.size());
   if (starts_with_travel()) expected_ = u_;
 }
 
@@ -117,6 +120,16 @@ double Statics::work_from_outside(const VecX& du, const VecX& f_ext, const VecX&
   return work;
 }
 
+// Of deformable surfaces, in the movement du to u1, as work_from_outside() of a rigid wall: what
+// they lose along their normal is a matter of the scheme.
+double Statics::work_of_friction(const VecX& u1, const VecX& du) {
+  const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  const std::size_t first = contacts_.size();
+  if (options_.inertia->uses_impulses()) return bodies_.work_of_friction(X, u1, du, r_, first);
+  const double at_start = bodies_.work_of_friction(X, now_.u, du, now_.r, first);
+  return 0.5 * (at_start + bodies_.work_of_friction(X, u1, du, r_, first));
+}
+
 double Statics::motion_error() const {
   const Inertia& inertia = *options_.inertia;
   const MotionState end = inertia.end(inertia.end_of(u_), travel_, VecX::Zero(u_.size()));
@@ -150,6 +163,7 @@ void Statics::accept_motion() {
     work += work_from_outside(du, f_ext_start_, now_.motion.reactions, now_.r);
     work *= 0.5;
   }
+  if (!bodies_.empty()) work += work_of_friction(u1, du);
   work += inertia.work_of_gravity(du, travel_ - now_.travel);
   equilibrium_.accept_increment(now_.u, u1);
   motion.damped = now_.motion.damped + inertia.damped(now_.motion, motion);

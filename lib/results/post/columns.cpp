@@ -262,7 +262,9 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                  "a quantity that needs no indenter", "");
       if (line.needs.shapes && !available.energy)
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
-                 "a solution whose config this version can read", "");
+                 "a solution whose config this version can read, without contact of deformable "
+                 "surfaces",
+                 "energy, kinetic_energy and energy_balance know these");
       // Without contact the complaint above is enough.
       if (line.needs.history && (available.contact || !line.needs.contact) &&
           !contains(available.histories, line.needs.history))

@@ -52,7 +52,8 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"energy_balance", "N mm",
      "change of the mechanical energy since the beginning without the work of supports, loads, "
      "weight and indenters: what the time scheme gains; negative where it loses"},
-    {"momentum_*", "N s", "of the body in motion along that axis"},
+    {"momentum_*", "N s",
+     "of the body in motion along that axis; of several bodies each, and the sum"},
     {"indenter_velocity", "mm/s", "of an indenter with mass, along its direction"},
     {"indenter_acceleration", "mm/s^2", "of an indenter with mass, along its direction"},
     {"indenter_carried", "mm/s^2", "what the time scheme carries on of that acceleration"},

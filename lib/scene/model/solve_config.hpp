@@ -96,7 +96,8 @@ struct ContactConfig {
     v(&ContactConfig::rigid, "rigid", unit::none,
       "shape and place of the indenter; or `against` instead");
     v(&ContactConfig::against, "against", unit::none,
-      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8");
+      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8; the "
+      "set of `on` itself: a surface that may fold and touch itself");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -164,13 +165,7 @@ struct ContactConfig {
     refuse(control.has_value(), "control", "a load {force: ...} pushes a body");
     refuse(rotation.has_value(), "rotation", "a load {rotation: ...} turns a set");
     refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
-    if (on.empty())
-      found.push_back({"on", "missing", "the set that touches `against`", ""});
-    else if (on == *against)
-      found.push_back(
-          {"against", "found the set of `on`", "the set of another surface",
-           "a surface that touches itself is not computed yet: name two parts of it that "
-           "share no node"});
+    if (on.empty()) found.push_back({"on", "missing", "the set that touches `against`", ""});
     return found;
   }
   std::vector<Complaint> of_rotation() const {
@@ -233,6 +228,7 @@ struct SceneBodyConfig {
   std::optional<FibreField> fibre_field;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
+  std::optional<std::array<double, 3>> velocity, spin;
   static void fields(auto& v) {
     v(&SceneBodyConfig::mesh, "mesh", unit::none, "its mesh", required);
     v(&SceneBodyConfig::material, "material", unit::none,
@@ -243,6 +239,11 @@ struct SceneBodyConfig {
       "directions that vary from cell to cell");
     v(&SceneBodyConfig::supports, "supports", unit::none, "sets of this mesh that are held");
     v(&SceneBodyConfig::loads, "loads", unit::none, "loads on sets of this mesh");
+    v(&SceneBodyConfig::velocity, "velocity", "mm/s",
+      "with dynamics: of this body at the beginning; none: that of dynamics");
+    v(&SceneBodyConfig::spin, "spin", "1/s",
+      "with dynamics: angular velocity of this body at the beginning, about the middle of its box; "
+      "none: it moves as dynamics says");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
@@ -591,6 +592,16 @@ struct SolveConfig {
         found.push_back({"contacts." + name + ".free", "found without dynamics",
                          "dynamics: {density_kg_m3: 1100}",
                          "an indenter with mass moves in time, with a body that has inertia"});
+    for (const auto& [name, body] : bodies) {
+      if (in_motion()) break;
+      const auto moves = [&](bool given, const char* key) {
+        if (!given) return;
+        found.push_back({"bodies." + name + "." + key, "found without dynamics",
+                         "dynamics: {density_kg_m3: 1100}", "an equilibrium has no velocity"});
+      };
+      moves(body.velocity.has_value(), "velocity");
+      moves(body.spin.has_value(), "spin");
+    }
     if (!in_motion()) return;
     const auto refuse = [&](const std::string& key, const std::string& expected) {
       found.push_back({key, "found together with dynamics", expected, "it is for equilibria"});
@@ -598,7 +609,6 @@ struct SolveConfig {
     if (path.arc_length) refuse("path.arc_length", "path: {seconds: ...}");
     if (branch) refuse("branch", "none");
     if (imperfection) refuse("imperfection", "none");
-    if (!bodies.empty()) refuse("bodies", "one mesh");
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (loads[i].volume) refuse("loads[" + std::to_string(i) + "].volume", "pressure");
     if (!path.seconds)

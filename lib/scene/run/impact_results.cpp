@@ -6,9 +6,14 @@
 
 namespace langer {
 
-ImpactResults::ImpactResults(const Scene& scene) {
-  moves_ = scene.motion.has_value() && !scene.contacts.empty();
+ImpactResults::ImpactResults(const Scene& scene, const Inertia* inertia) {
+  moves_ = inertia && !(scene.contacts.empty() && scene.surfaces.empty());
   if (!moves_) return;
+  for (const SurfaceContact& surface : scene.surfaces) surfaces_.push_back(surface.name);
+  const std::vector<MovingBody>& bodies = inertia->options().bodies;
+  if (!surfaces_.empty() && bodies.size() == 2) {
+    for (const MovingBody& body : bodies) pair_.emplace_back(body.name, inertia->mass_of(body));
+  }
   free_ = scene.motion->travel_mass > 0;
   State start;
   start.speed = scene.motion->travel_velocity;
@@ -19,10 +24,16 @@ void ImpactResults::add(const StepRecord& step) {
   if (!moves_) return;
   State state;
   state.time = step.scalars.at("time");
-  state.force = step.force_ind.norm();
+  if (surfaces_.empty()) state.force = step.force_ind.norm();
+  for (const std::string& name : surfaces_) state.force += step.scalars.at("force_" + name);
   state.speed = value_or(step.scalars, "indenter_velocity", 0);
   for (int k = 0; k < 3; ++k) {
     state.momentum[k] = step.scalars.at(std::string("momentum_") + "xyz"[k]);
+    double sign = 1;
+    for (const auto& [name, mass] : pair_) {
+      state.separation[k] += sign * step.scalars.at("momentum_" + name + "_" + "xyz"[k]) / mass;
+      sign = -1;
+    }
   }
   states_.push_back(state);
 }
@@ -55,6 +66,7 @@ std::vector<Summary> ImpactResults::summary() const {
     end = zero_of(states_[last], states_[last - 1], states_[last].time, states_[last + 1].time);
   }
   out.push_back({"contact_time", end - begin, "s"});
+  if (!surfaces_.empty() && pair_.empty()) return out;  // the momentum of all is that of the start
   out.push_back({"restitution", restitution(first, last), "-"});
   return out;
 }
@@ -64,11 +76,14 @@ double ImpactResults::restitution(std::size_t first, std::size_t last) const {
   const State& after = states_[last + 1];
   if (free_) return -after.speed / before.speed;
   // The state at rest is not recorded: its momentum is that of the first step without contact.
-  const Vec3 p = first == 1 ? states_[first].momentum : before.momentum;
-  const Vec3 impulse = after.momentum - p;
+  const State& arrival = first == 1 ? states_[first] : before;
+  const bool two_bodies = !pair_.empty();
+  const Vec3 p = two_bodies ? arrival.separation : arrival.momentum;
+  const Vec3 p_after = two_bodies ? after.separation : after.momentum;
+  const Vec3 impulse = p_after - p;
   const double arriving = p.dot(impulse);
   if (arriving == 0) return 0;
-  return -after.momentum.dot(impulse) / arriving;
+  return -p_after.dot(impulse) / arriving;
 }
 
 }  // namespace langer
