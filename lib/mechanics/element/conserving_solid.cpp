@@ -27,6 +27,20 @@ const std::array<ChordPoint, 3> chord_points{
 constexpr double least_defect = 2e-12;
 constexpr double least_defect_of_J = 2e-14;
 
+// The part of a defect that is corrected: none up to `least`, all of it from twice that on, and
+// continuous between, so that Newton's method does not alternate between two forces.
+struct Corrected {
+  double value = 0;
+  double slope = 0;  // d value / d defect
+};
+
+Corrected corrected_part(double defect, double least) {
+  const double size = std::abs(defect) / least;
+  if (!(size > 1)) return {};
+  if (size >= 2) return {defect, 1};
+  return {defect * (size - 1), 2 * size - 1};
+}
+
 // The discrete gradient of a potential of the strain, and its derivative: gradient and dE are
 // components and engineering components in the order of voigt.hpp.
 //   d(gradient) = derivative e,   e = dE at the middle of the increment = B(F_1) du_m
@@ -41,13 +55,13 @@ void correct_gradient(DiscreteGradient& of, double change, const Vec6& at_end, c
   const Vec6 components = voigt(dE);
   const Vec6 engineering = voigt_strain(dE);
   const double squared = components.dot(engineering);
-  const double defect = change - of.gradient.dot(engineering);
-  if (!(std::abs(defect) > least) || squared == 0) return;
-  const double c = defect / squared;
+  if (squared == 0) return;
+  const Corrected part = corrected_part(change - of.gradient.dot(engineering), least);
+  if (part.slope == 0) return;
+  const double c = part.value / squared;
   if (with_tangent) {
-    const Vec6 dc = (2 * (at_end - of.gradient) - of.derivative.transpose() * engineering -
-                     4 * c * components) /
-                    squared;
+    const Vec6 d_defect = 2 * (at_end - of.gradient) - of.derivative.transpose() * engineering;
+    const Vec6 dc = (part.slope * d_defect - 4 * c * components) / squared;
     of.derivative += components * dc.transpose();
     for (int p = 0; p < 6; ++p) of.derivative(p, p) += p < 3 ? 2 * c : c;
   }
@@ -69,10 +83,13 @@ VolumeQuotient volume_quotient(const Volume& law, double x0, double x1) {
   }
   if (linear_pressure(law)) return out;
   const Energy<double> U1 = volume_energy(law, x1);
-  const double change = U1.W - volume_energy(law, x0).W;
-  if (!(std::abs(change - out.p * (x1 - x0)) > least_defect * bulk_modulus(law))) return out;
-  out.p = change / (x1 - x0);
-  out.dp = (U1.dW - out.p) / (x1 - x0);
+  const double dx = x1 - x0;
+  const double defect = U1.W - volume_energy(law, x0).W - out.p * dx;
+  const Corrected part = corrected_part(defect, least_defect * bulk_modulus(law));
+  if (part.slope == 0) return out;
+  const double d_defect = U1.dW - out.p - dx * out.dp;
+  out.p += part.value / dx;
+  out.dp += (part.slope * d_defect - part.value / dx) / dx;
   return out;
 }
 

@@ -179,6 +179,7 @@ class Statics {
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
   IncrementMove increment_move(const VecX& expected) const;  // refers to `expected`
+  double slip_tolerance() const;                             // [mm]
   bool starts_with_travel() const;  // the slip of an indenter under force control
   std::vector<Vec3> start_moves()
       const;  // by its candidate, what the slip is measured from, per travel
