@@ -2,7 +2,7 @@
 // disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
 //                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, ranks,
-//                               wide, control
+//                               wide, control, motion
 #include <fmt/format.h>
 
 #include <array>
@@ -30,6 +30,7 @@ void measure_candidates();
 void measure_wide();     // wide.cpp
 void measure_control();  // control.cpp
 void measure_inverse();  // inverse.cpp
+void measure_motion();   // motion.cpp
 void measure_price();
 void measure_inverse_coverage();
 
@@ -204,6 +205,7 @@ int main(int argc, char** argv) {
   if (asked.count("ranks")) measure_ranks(skin);
   if (asked.count("wide")) measure_wide();
   if (asked.count("control")) measure_control();
+  if (asked.count("motion")) measure_motion();
   if (asked.count("candidates")) measure_candidates();
   if (asked.count("grading")) {
     test::Indentation scene;

@@ -13,10 +13,10 @@
 //                        am = (2 rho_inf - 1) / (rho_inf + 1),  af = rho_inf / (rho_inf + 1)
 //                        gamma = 1/2 - am + af,  beta = (1 - am + af)^2 / 4
 //                      second order; rho_inf is what is left of the highest frequencies in a step
-//   energy_momentum    [ST92]: balance in the middle of the increment, u_m = (u0 + u1)/2, which is its
-//                      unknown; a force along M (u1 - u0 - rigid part) makes the work of the internal
-//                      forces exactly the change of energy ([GO96], for the whole body). Keeps the
-//                      energy of a body that is held
+//   energy_momentum    [ST92], [GO96]: balance in the middle of the increment, u_m = (u0 + u1)/2,
+//                      which is its unknown, with internal forces whose work is exactly the change of
+//                      energy (element/conserving_solid.hpp). Second order; keeps energy and angular
+//                      momentum
 //   theta              [FJCM05]: impulses instead of accelerations,
 //                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
 //                      F without R, which is the mean reaction of the increment
@@ -83,7 +83,8 @@ class Inertia : public AddedTerm {
   MotionState at_start() const;
   // An increment of `seconds` from there.
   void begin(const VecX& u, double travel, const MotionState& motion, double seconds);
-  // What an inertial motion adds to the displacements of free dofs until the unknown is found.
+  // What the velocity at the beginning adds to the displacements of free dofs until the unknown is
+  // found.
   VecX predicted() const;
   double predicted_travel() const;
 
@@ -98,9 +99,6 @@ class Inertia : public AddedTerm {
 
   // The displacements at the end, of the unknown of the scheme.
   VecX end_of(const VecX& u) const;
-  // energy_momentum: the direction of the force that makes the work of the internal forces that of
-  // the change of energy, M (u1 - u0 - rigid part); (3 n). Zero for a rigid motion.
-  VecX projection(const VecX& u_m) const;
 
   // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
   MotionState end(const VecX& u1, double travel1, const VecX& net) const;
@@ -109,7 +107,9 @@ class Inertia : public AddedTerm {
   double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
   Vec3 momentum(const MotionState& motion) const;                // of all bodies [N s]
   Vec3 momentum(const MotionState& motion, const MovingBody& body) const;
-  double mass_of(const MovingBody& body) const;                              // [t]
+  double mass_of(const MovingBody& body) const;  // [t]
+  // Of all bodies at displacements u, about the origin [N mm s].
+  Vec3 angular_momentum(const VecX& u, const MotionState& motion) const;
   double work_of_gravity(const VecX& du, double dtravel) const;              // [N mm]
   double damped(const MotionState& before, const MotionState& after) const;  // [N mm]
   // Error of displacement in the increment, per time and in the norm of the kinetic energy, over
@@ -119,7 +119,6 @@ class Inertia : public AddedTerm {
   double force_scale() const { return (mass_.M * acceleration_).norm(); }
 
  private:
-  VecX rigid_part(const VecX& x, const VecX& w) const;
   VecX acceleration_at(const VecX& u) const;
   VecX velocity_at(const VecX& u) const;
 
@@ -131,6 +130,7 @@ class Inertia : public AddedTerm {
   VecX weight_;                                         // M g (3 n)
   std::vector<char> massless_;                          // by dof
   std::array<bool, 3> translates_{};  // ties allow a translation of the body along an axis
+  bool whole_ = true;                 // nothing is tied: the body is not a part or a section
 
   // of the increment
   double h_ = 1;

@@ -632,17 +632,13 @@ struct SolveConfig {
     const auto unlike = [&](const std::string& key, const std::string& hint) {
       found.push_back({key, "found with scheme: energy_momentum", "another scheme", hint});
     };
-    if (supports.empty())
-      unlike(
-          "dynamics.scheme",
-          "of a body in free flight Newton's method does not find the force that keeps its energy");
     for (const auto& [name, contact] : contacts)
       unlike("contacts." + name,
              "its balance is that of the middle of a step, and contact at its end");
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (!loads[i].on_surface())
         unlike("loads[" + std::to_string(i) + "]",
-               "sets that are moved do work between the ends of a step");
+               "the velocity of a set that is moved would alternate from step to step");
     if (material && is_viscous(*material))
       unlike("material", "viscous branches know the end of a step");
   }

@@ -1,10 +1,32 @@
 #include "scene/run/impact_results.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/base/text.hpp"
 
 namespace langer {
+
+namespace {
+
+double smallest_gap(const StepRecord& step) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& [name, contact] : step.contacts) {
+    for (double gap : contact.gap) smallest = std::min(smallest, gap);
+  }
+  return smallest;
+}
+
+// Where the line through two points (x, y) reaches 0, within [low, high].
+double zero_of_line(std::pair<double, double> a, std::pair<double, double> b, double low,
+                    double high) {
+  const double slope = (b.second - a.second) / (b.first - a.first);
+  if (slope == 0) return 0.5 * (low + high);
+  return std::clamp(a.first - a.second / slope, low, high);
+}
+
+}  // namespace
 
 ImpactResults::ImpactResults(const Scene& scene, const Inertia* inertia) {
   moves_ = inertia && !(scene.contacts.empty() && scene.surfaces.empty());
@@ -26,6 +48,7 @@ void ImpactResults::add(const StepRecord& step) {
   state.time = step.scalars.at("time");
   if (surfaces_.empty()) state.force = step.force_ind.norm();
   for (const std::string& name : surfaces_) state.force += step.scalars.at("force_" + name);
+  state.gap = smallest_gap(step);
   state.speed = value_or(step.scalars, "indenter_velocity", 0);
   for (int k = 0; k < 3; ++k) {
     state.momentum[k] = step.scalars.at(std::string("momentum_") + "xyz"[k]);
@@ -52,23 +75,43 @@ std::vector<Summary> ImpactResults::summary() const {
   if (first == 0) return {};
   std::vector<Summary> out{{"peak_force", peak, "N"}};
   if (last + 1 >= states_.size()) return out;
-  // The time at which the line through two forces reaches 0, within [low, high].
-  const auto zero_of = [](const State& near, const State& next, double low, double high) {
-    const double slope = (next.force - near.force) / (next.time - near.time);
-    if (slope == 0) return 0.5 * (low + high);
-    return std::clamp(near.time - near.force / slope, low, high);
-  };
-  double begin = states_[first].time;
-  double end = states_[last].time;
-  if (last > first) {
-    begin =
-        zero_of(states_[first], states_[first + 1], states_[first - 1].time, states_[first].time);
-    end = zero_of(states_[last], states_[last - 1], states_[last].time, states_[last + 1].time);
-  }
-  out.push_back({"contact_time", end - begin, "s"});
+  out.push_back({"contact_time", parting_time(last) - touch_time(first), "s"});
   if (!surfaces_.empty() && pair_.empty()) return out;  // the momentum of all is that of the start
   out.push_back({"restitution", restitution(first, last), "-"});
   return out;
+}
+
+// Between the last state before the contact and the first one in it.
+double ImpactResults::touch_time(std::size_t first) const {
+  const State& touching = states_[first];
+  const State& before = states_[first - 1];
+  // The state at rest is not recorded, and has no gap here.
+  if (first >= 3) {
+    const State& earlier = states_[first - 2];
+    return zero_of_line({before.time, before.gap}, {earlier.time, earlier.gap}, before.time,
+                        touching.time);
+  }
+  if (first == 2 && free_) {
+    const double rest = before.gap / before.speed;
+    return std::clamp(before.time + rest, before.time, touching.time);
+  }
+  const State& next = states_[std::min(first + 1, states_.size() - 1)];
+  return zero_of_line({touching.time, touching.force}, {next.time, next.force}, before.time,
+                      touching.time);
+}
+
+// Between the last state in contact and the first one after it.
+double ImpactResults::parting_time(std::size_t last) const {
+  const State& touching = states_[last];
+  const State& after = states_[last + 1];
+  if (last + 2 < states_.size()) {
+    const State& later = states_[last + 2];
+    return zero_of_line({after.time, after.gap}, {later.time, later.gap}, touching.time,
+                        after.time);
+  }
+  const State& earlier = states_[last - 1];
+  return zero_of_line({touching.time, touching.force}, {earlier.time, earlier.force}, touching.time,
+                      after.time);
 }
 
 double ImpactResults::restitution(std::size_t first, std::size_t last) const {

@@ -1,7 +1,8 @@
 // What an impact leaves behind: contact time, greatest force and restitution, from the states of a
 // path.
-//   contact_time   from the first touch to the last parting: between the states before and after,
-//                  the line through the next two forces is followed to 0
+//   contact_time   from the first touch to the last parting: the smallest gap of two states without
+//                  contact is followed to 0. The force near a touch is no straight line: that of a
+//                  sphere grows with the power 3/2 of its travel
 //   peak_force     greatest force of all indenters on the body
 //   restitution    of an indenter with mass: its speed after the last parting over that at the first
 //                  touch; of a thrown body the same of its momentum along the whole impulse, and of
@@ -29,9 +30,12 @@ class ImpactResults {
  private:
   struct State {
     double time = 0, force = 0, speed = 0;
+    double gap = 0;  // the smallest of all candidates [mm]
     Vec3 momentum = Vec3::Zero();
     Vec3 separation = Vec3::Zero();  // velocity of the first of two bodies from the second [mm/s]
   };
+  double touch_time(std::size_t first) const;
+  double parting_time(std::size_t last) const;
   double restitution(std::size_t first, std::size_t last) const;
   std::vector<State> states_;
   std::vector<std::string> surfaces_;                 // names of pairs of deformable surfaces
