@@ -216,6 +216,9 @@ std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
          write_study_files(record.study, *config.study, config.figure_style, job.side_file("")))
       job.say("{}", line);
   }
+  if (scenes && config.study && config.study->held.value_or(true))
+    for (const InverseFit::Widening& widening : scenes->widenings(found))
+      job.say("{}", in_words(widening));
   if (config.study && config.study->posterior) {
     const Posterior sampled =
         posterior(problem, found, *config.study->posterior, config.study->threads,

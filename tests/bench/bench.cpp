@@ -1,7 +1,7 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine
 // disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, ranks,
+//                               only when named: coverage, inverse, price, inverse_coverage, thickness_prior, relaxation, paper, depths, grading, growth, ranks,
 //                               wide, control, motion
 #include <fmt/format.h>
 
@@ -33,6 +33,7 @@ void measure_inverse();  // inverse.cpp
 void measure_motion();   // motion.cpp
 void measure_price();
 void measure_inverse_coverage();
+void measure_thickness_prior();
 
 namespace {
 
@@ -192,6 +193,7 @@ int main(int argc, char** argv) {
   if (asked.count("inverse")) measure_inverse();
   if (asked.count("price")) measure_price();
   if (asked.count("inverse_coverage")) measure_inverse_coverage();
+  if (asked.count("thickness_prior")) measure_thickness_prior();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))
     for (int threads : {1, 2}) {
