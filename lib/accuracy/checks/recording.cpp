@@ -91,7 +91,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
 std::function<void(const StepRecord&)> Recording::collector(const SolveConfig& config) {
   if (!by_refinement(config)) return {};
   return [this, config](const StepRecord& step) {
-    forces_.push_back(step_forces(config, run_.scene, run_.mesh, step));
+    append_step(forces_, step_forces(config, run_.scene, run_.mesh, step));
   };
 }
 
