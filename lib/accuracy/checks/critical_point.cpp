@@ -7,10 +7,12 @@
 #include <map>
 #include <numbers>
 
+#include "accuracy/checks/place_text.hpp"
 #include "core/base/text.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/solve/critical_modes.hpp"
 #include "mechanics/solve/symmetry_breaking.hpp"
+#include "results/store/curves_file.hpp"
 
 namespace langer {
 
@@ -278,8 +280,30 @@ void describe(Run& run, const VecX& last_move, CriticalPoint& point) {
 std::string CriticalPoint::words() const {
   std::string text = fmt::format("{} at t = {:.5g}", kind, t);
   if (load_factor != t) text += fmt::format(", load factor {:.5g}", load_factor);
+  if (place) text += " near " + place_text(*place);
   if (!symmetry.empty()) text += fmt::format("; its mode is {}", symmetry);
   return text;
+}
+
+CriticalPoint point_between(const std::string& kind, double t_before, const StepRecord& record,
+                            const std::optional<Vec3>& place) {
+  CriticalPoint point;
+  point.kind = kind;
+  point.t = record.t;
+  point.within = record.t - t_before;
+  const auto factor = record.scalars.find("load_factor");
+  point.load_factor = factor == record.scalars.end() ? record.t : factor->second;
+  point.place = place;
+  return point;
+}
+
+std::string table_of(const CriticalPoint& point) {
+  std::string angle;
+  if (point.angle) angle = fmt::format("{:.6g}", *point.angle);
+  return fmt::format(
+      "critical_t,critical_load_factor,critical_kind,critical_symmetry,critical_wave_angle_deg\n"
+      "{:.10g},{:.10g},{},{},{}\n",
+      point.t, point.load_factor, csv_cell(point.kind), csv_cell(point.symmetry), angle);
 }
 
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,

@@ -94,8 +94,97 @@ void RunWatch::take_turning(const StepRecord& record) {
   }
 }
 
-void RunWatch::locate(const RunEnd& end) {
-  if (!follows_states() || critical_) return;
+// Where the line between two values, the second of which is negative, is 0. The load factor moves
+// with t where it is t.
+void RunWatch::move_to_root(CriticalPoint& point, const std::optional<Sample>& before,
+                            const Sample& now) {
+  if (!before || !(before->value > 0) || !std::isfinite(now.value)) return;
+  const bool same = point.load_factor == point.t;
+  point.t -= (now.t - before->t) * now.value / (now.value - before->value);
+  if (same) point.load_factor = point.t;
+}
+
+// The first step in which a point of the body has lost strong ellipticity, and the first that is
+// unstable.
+void RunWatch::take_losses(const StepRecord& record) {
+  const auto value = [&](const char* name) {
+    const auto found = record.scalars.find(name);
+    return found == record.scalars.end() ? 0 : found->second;
+  };
+  const double stiffness = value("shear_stiffness_min");
+  if (!material_lost_ && stiffness < 0) {
+    const Vec3 place(value("weakest_x"), value("weakest_y"), value("weakest_z"));
+    material_lost_ = point_between("loss of strong ellipticity", t_looked_, record, place);
+    move_to_root(*material_lost_, stiffness_before_, {record.t, stiffness});
+  }
+  stiffness_before_ = Sample{record.t, stiffness};
+  if (!stability_lost_ && value("negative_eigenvalues") != 0)
+    stability_lost_ = point_between("loss of stability", t_looked_, record);
+  t_looked_ = record.t;
+}
+
+// The condition is local: where it is violated, waves of any short length grow, shorter than the
+// cells can show.
+void RunWatch::take_surface(const StepRecord& record, const BodyState& state) {
+  const bool off = locate_ == LocateCritical::off || when_ == StabilityCheck::off;
+  if (surface_lost_ || off || mesh_ || run_.body.viscous() || run_.body.division() ||
+      !run_.scene.surfaces.empty())
+    return;
+  if (!surface_) surface_.emplace(run_.body, run_.reduction.scene().loads);
+  const auto found = surface_->weakest(run_.body, state, run_.statics.contacts());
+  if (found && found->margin < 0) {
+    surface_lost_ = point_between("crease", t_looked_, record, found->place);
+    move_to_root(*surface_lost_, margin_before_, {record.t, found->margin});
+  }
+  margin_before_.reset();
+  if (found) margin_before_ = Sample{record.t, found->margin};
+}
+
+void RunWatch::take_support(const StepRecord& record) {
+  if (record.contacts.empty()) return;
+  double pressed = 0;
+  for (const auto& [name, contact] : record.contacts)
+    for (const Vec3& r : contact.r) pressed += r.norm();
+  support_.push_back({record.t, pressed});
+  if (support_.size() > 2) support_.erase(support_.begin());
+}
+
+// A body that contact alone restrains: its reactions fall to 0 within what is left of the path
+// after the last state. By the line through the last two.
+std::optional<CriticalPoint> RunWatch::support_lost(const RunEnd& end) const {
+  if (end.at != RunEnd::At::no_equilibrium || support_.empty()) return std::nullopt;
+  const Sample& last = support_.back();
+  double t = last.t;
+  if (last.value > 0) {
+    if (support_.size() < 2) return std::nullopt;
+    const Sample& before = support_.front();
+    const double fall = (before.value - last.value) / (last.t - before.t);
+    if (!(fall > 0)) return std::nullopt;
+    t = last.t + last.value / fall;
+    const double increment = last.t - before.t;
+    if (t - last.t > 2 * std::max(increment, run_.path.smallest)) return std::nullopt;
+  }
+  CriticalPoint point;
+  point.kind = "loss of support";
+  point.t = point.load_factor = t;
+  point.within = t - last.t;
+  return point;
+}
+
+void RunWatch::locate(const RunEnd& end, bool only_contact) {
+  if (critical_ || locate_ == LocateCritical::off || when_ == StabilityCheck::off) return;
+  if (only_contact) critical_ = support_lost(end);
+  if (critical_) return;
+  locate_bifurcation(end);
+  // Verdicts that need no search are known to an increment, which a point in the same one beats.
+  for (const auto& lost : {material_lost_, surface_lost_, stability_lost_}) {
+    const bool first = lost && (!critical_ || lost->t < critical_->t);
+    if (first && !(lost->kind == "loss of stability" && !turnings_.empty())) critical_ = lost;
+  }
+}
+
+void RunWatch::locate_bifurcation(const RunEnd& end) {
+  if (!follows_states()) return;
   if (crossing_) {
     const bool breaking = breaking_at(false) && run_.reduction.kind() == Reduction::Kind::symmetry;
     critical_ =
@@ -111,6 +200,9 @@ void RunWatch::kept(const StepRecord& step) {
       found != step.scalars.end() && follows_states()) {
     take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))});
   }
+  if (!mesh_ && !run_.body.viscous()) take_surface(step, run_.state_from(step));
+  take_losses(step);
+  take_support(step);
   stability_.resume(step);
   if (contact_) contact_->kept(step);
   if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end()) {
@@ -166,6 +258,9 @@ bool RunWatch::of_part(StepRecord& record) {
   }
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
+  take_surface(record, run_.statics.accepted());
+  take_losses(record);
+  take_support(record);
   last_said_ = in_words(*report);
   if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
@@ -209,18 +304,22 @@ std::vector<Summary> RunWatch::contact_summary() const {
 std::vector<Summary> RunWatch::stability_summary() const {
   if (when_ == StabilityCheck::off) return std::vector<Summary>{};
   std::vector<Summary> all = stability_.summary();
-  // the unit of a word is the word itself (pipeline/plan/run_files.cpp)
   if (critical_) {
     all.push_back({"critical_t", critical_->t, "-"});
     all.push_back({"critical_load_factor", critical_->load_factor, "-"});
-    all.push_back({"critical_kind", NAN, "word " + critical_->kind});
-    all.push_back({"critical_symmetry", NAN, "word " + critical_->symmetry});
     if (critical_->angle) all.push_back({"critical_wave_angle", *critical_->angle, "deg"});
   } else if (!turnings_.empty()) {
     all.push_back({"critical_t", turnings_.front().t, "-"});
-    all.push_back({"critical_kind", NAN, "word limit point of load"});
   }
   return all;
+}
+
+std::vector<TextResult> RunWatch::texts() const {
+  if (when_ == StabilityCheck::off) return {};
+  if (critical_)
+    return {{"critical_kind", critical_->kind}, {"critical_symmetry", critical_->symmetry}};
+  if (!turnings_.empty()) return {{"critical_kind", "limit point of load"}};
+  return {};
 }
 
 }  // namespace langer
