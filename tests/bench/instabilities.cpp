@@ -12,7 +12,7 @@ using namespace langer;
 
 void measure_instabilities() {
   constexpr int members = 21;
-  constexpr unsigned seed = 20261127;
+  constexpr unsigned seed = 20261128;
   test::InstabilityDraw draw(seed);
   int contain = 0;
   fmt::print(

@@ -4,11 +4,13 @@
 // on a finer mesh).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,13 +45,13 @@ inline FoundInstability find_instability(const std::string& scene) {
   Run run(make_mesh(*config.mesh, no_place).mesh, config, config.material, no_place);
   RunWatch watch(run, config, no_place, {});
   FoundInstability found;
-  bool unstable = false;
+  std::vector<double> steps;
   RunListener listener;
   listener.of_part = [&](StepRecord& step) {
     const bool goes_on = watch.of_part(step);
-    if (unstable) return goes_on;
-    unstable = step.scalars.at("negative_eigenvalues") != 0;
-    (unstable ? found.after : found.before) = step.t;
+    if (found.after == 0 && step.scalars.at("negative_eigenvalues") != 0) found.after = step.t;
+    if (found.after == 0) found.before = step.t;
+    steps.push_back(step.t);
     return goes_on;
   };
   // the increment that fails first at a limit point is the one that contains it
@@ -59,8 +61,15 @@ inline FoundInstability find_instability(const std::string& scene) {
   };
   const RunEnd end = run.follow(listener);
   watch.locate(end);
-  if (!unstable && !end.path.complete) found.after = failed;
   found.critical = watch.critical();
+  if (found.after > 0) return found;
+  found.after = failed;
+  if (!end.path.complete || !found.critical) return found;
+  // a jump to a distant state that is stable: the increment in which it happened
+  const double t = found.critical->t;
+  const auto next = std::lower_bound(steps.begin(), steps.end(), t);
+  found.after = next == steps.end() ? 1 : *next;
+  found.before = next == steps.begin() ? 0 : *(next - 1);
   return found;
 }
 

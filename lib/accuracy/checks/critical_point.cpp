@@ -372,6 +372,45 @@ std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& 
   return point;
 }
 
+std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
+                                         const StateOnPath& first, const StateOnPath& last) {
+  constexpr double gap = 0.3;  // share of the movement that is left where the path has no jump
+  const double t_now = run.t();
+  const BodyState now = run.statics.accepted();
+  const auto distance = [](const StateOnPath& a, const StateOnPath& b) {
+    return (a.state.u - b.state.u).norm();
+  };
+  const double jump = distance(first, last);
+  StateOnPath earlier = before;
+  StateOnPath low = first;
+  StateOnPath high = last;
+  bool jumps = true;
+  while (jumps && high.t - low.t > 2 * located * std::min(1.0, high.t)) {
+    const double t = 0.5 * (low.t + high.t);
+    run.put_at(low.t, low.state, earlier.state);
+    if (!run.solve_at(t).converged()) {
+      high.t = t;  // beyond the last equilibrium on this side
+      continue;
+    }
+    run.statics.accept();
+    StateOnPath middle{t, run.statics.accepted(), low.negative};
+    if (distance(middle, low) > distance(middle, high)) {
+      high = std::move(middle);
+    } else {
+      earlier = std::move(low);
+      low = std::move(middle);
+    }
+    jumps = distance(low, high) > gap * jump;
+  }
+  std::optional<CriticalPoint> point;
+  if (jumps) point = critical_point_at_end(run, earlier, low, 0.5 * (high.t - low.t));
+  if (point) point->t = 0.5 * (low.t + high.t);
+  if (point) point->load_factor = low.state.t + 0.5 * (high.t - low.t);
+  run.put_at(t_now, now, now);
+  run.body.pressures_from(now.u);
+  return point;
+}
+
 std::vector<VecX> modes_of(Run& run, int n) {
   const Dofs& dofs = run.body.dofs();
   std::vector<VecX> shapes;

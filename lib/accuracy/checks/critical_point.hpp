@@ -64,6 +64,12 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
 std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,
                                                    const StateOnPath& last, double left);
 
+// The limit point between two accepted states from the first of which the run jumped to a distant
+// one: smaller increments from the first leave a gap that does not close. Nothing where it closes,
+// as the path is only steep there. The run is left where it was.
+std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
+                                         const StateOnPath& first, const StateOnPath& last);
+
 // The modes of the body at the accepted state of a run without contact, as node movements of the
 // model (3 n), the largest component 1.
 std::vector<VecX> modes_of(Run& run, int n);

@@ -54,8 +54,25 @@ bool RunWatch::follows_states() const {
          run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
 }
 
-void RunWatch::take_state(StateOnPath state) {
+// Under dead loads an increment may pass a limit point: Newton's method then finds a distant state,
+// which may well be stable. It shows in a movement much faster than before, found through tangents
+// that were not positive definite.
+void RunWatch::take_jump(const StateOnPath& state, bool doubtful) {
+  constexpr double faster = 1.5;  // a longer search decides
+  const bool dead_loads = run_.scene.contacts.empty() && !run_.scene.loads.empty();
+  if (jump_ || !doubtful || !dead_loads || run_.path.arc_length) return;
+  if (!before_ || !(before_->t < last_->t)) return;
+  const auto rate = [](const StateOnPath& a, const StateOnPath& b) {
+    return (b.state.u - a.state.u).norm() / (b.t - a.t);
+  };
+  if (rate(*last_, state) > faster * rate(*before_, *last_))
+    jump_ = Crossing{*before_, *last_, state};
+}
+
+// doubtful: tangents of the increment were not positive definite, or nothing is known of them
+void RunWatch::take_state(StateOnPath state, bool doubtful) {
   if (crossing_) return;
+  if (last_) take_jump(state, doubtful);
   if (!last_) {
     last_ = StateOnPath{0, at_rest(state.state), 0};
     before_ = last_;
@@ -176,6 +193,14 @@ void RunWatch::locate(const RunEnd& end, bool only_contact) {
   if (only_contact) critical_ = support_lost(end);
   if (critical_) return;
   locate_bifurcation(end);
+  if (jump_ && (!critical_ || jump_->first.t < critical_->t)) {
+    const auto point = locate_jump(run_, jump_->before, jump_->first, jump_->last);
+    if (point) {
+      critical_ = point;
+    } else {
+      jump_.reset();
+    }
+  }
   // Verdicts that need no search are known to an increment, which a point in the same one beats.
   for (const auto& lost : {material_lost_, surface_lost_, stability_lost_}) {
     const bool first = lost && (!critical_ || lost->t < critical_->t);
@@ -198,7 +223,7 @@ void RunWatch::kept(const StepRecord& step) {
   take_turning(step);
   if (const auto found = step.scalars.find("negative_eigenvalues");
       found != step.scalars.end() && follows_states()) {
-    take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))});
+    take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))}, true);
   }
   if (!mesh_ && !run_.body.viscous()) take_surface(step, run_.state_from(step));
   take_losses(step);
@@ -254,7 +279,9 @@ bool RunWatch::of_part(StepRecord& record) {
     // change from the step before
     int negative = std::abs(report->signature->negative);
     if (report->breaking && breaking_at(false)) negative += std::abs(report->breaking->negative);
-    take_state({record.t, run_.statics.accepted(), negative});
+    const bool doubtful = run_.statics.n_indefinite() > n_indefinite_;
+    n_indefinite_ = run_.statics.n_indefinite();
+    take_state({record.t, run_.statics.accepted(), negative}, doubtful);
   }
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
@@ -276,6 +303,10 @@ std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& r
 std::vector<std::string> RunWatch::warnings() const {
   std::vector<std::string> lines = stability_.warnings();
   if (critical_) lines.push_back("first critical point: " + critical_->words());
+  if (jump_ && critical_)
+    lines.push_back(fmt::format(
+        "between t = {:.4g} and {:.4g} the run jumped to a distant state, past a limit point; path.arc_length follows the path between them",
+        jump_->first.t, jump_->last.t));
   for (const Turning& turning : turnings_) {
     const char* extremum = turning.greatest ? "greatest" : "least";
     lines.push_back(fmt::format("{} has a {} value of {:.6g}{} at t = {:.5g}: a limit point",

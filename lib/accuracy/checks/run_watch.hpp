@@ -61,7 +61,8 @@ class RunWatch {
   std::optional<StabilityReport> report_of_point(const StepRecord& record);
   bool breaking_at(bool at_end) const;
   bool follows_states() const;
-  void take_state(StateOnPath state);
+  void take_state(StateOnPath state, bool doubtful);
+  void take_jump(const StateOnPath& state, bool doubtful);
   void take_turning(const StepRecord& record);
   void take_losses(const StepRecord& record);
   void take_surface(const StepRecord& record, const BodyState& state);
@@ -87,6 +88,8 @@ class RunWatch {
     StateOnPath before, first, last;
   };
   std::optional<Crossing> crossing_;
+  std::optional<Crossing> jump_;  // three states, of which the last is far from the others
+  int n_indefinite_ = 0;          // tangents of iterations up to the last state
   std::optional<CriticalPoint> critical_;
   // A load that is a result has an extremum: a limit point of it.
   struct Turning {
