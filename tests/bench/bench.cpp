@@ -2,7 +2,7 @@
 // disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
 //                               only when named: coverage, inverse, price, inverse_coverage, thickness_prior, relaxation, paper, depths, grading, growth, ranks,
-//                               wide, control, motion
+//                               wide, control, motion, instabilities
 #include <fmt/format.h>
 
 #include <array>
@@ -27,10 +27,11 @@ void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
 void measure_candidates();
-void measure_wide();     // wide.cpp
-void measure_control();  // control.cpp
-void measure_inverse();  // inverse.cpp
-void measure_motion();   // motion.cpp
+void measure_wide();           // wide.cpp
+void measure_control();        // control.cpp
+void measure_instabilities();  // instabilities.cpp
+void measure_inverse();        // inverse.cpp
+void measure_motion();         // motion.cpp
 void measure_price();
 void measure_inverse_coverage();
 void measure_thickness_prior();
@@ -208,6 +209,7 @@ int main(int argc, char** argv) {
   if (asked.count("wide")) measure_wide();
   if (asked.count("control")) measure_control();
   if (asked.count("motion")) measure_motion();
+  if (asked.count("instabilities")) measure_instabilities();
   if (asked.count("candidates")) measure_candidates();
   if (asked.count("grading")) {
     test::Indentation scene;

@@ -95,6 +95,10 @@ PathErrors report_errors(const Voice& voice, const SolveConfig& config,
     if (failure.code() != Exit::not_converged) throw;
     voice.warn(fmt::format("errors are not estimated: {}", failure.what()));
   }
+  // estimates by refinement are marked where they are made
+  const bool asks = config.accuracy && config.accuracy->of && !by_refinement(config);
+  if (asks && !found.at_end.empty())
+    mark_asked(config, where, valued(config, run.scene, run.mesh, last), found.at_end);
   for (const ErrorEstimate& e : found.at_end) voice.detail("{}", in_words(e));
   for (const std::string& why : found.not_known) voice.warn(why);
   report_costs(voice, found);

@@ -79,7 +79,10 @@ Inertia::Inertia(const Assembler& body, InertiaOptions options)
   }
   weight_ = mass_.M * g;
   acceleration_ = VecX::Zero(dofs.n);
-  kinetic_at_start_ = at_start().kinetic;
+  const MotionState start = at_start();
+  kinetic_at_start_ = start.kinetic;
+  // A forecast assembles before any increment has begun: one of the whole path serves for it.
+  begin(VecX::Zero(dofs.n), 0, start, options_.seconds);
 }
 
 MotionState Inertia::at_start() const {

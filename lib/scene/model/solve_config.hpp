@@ -280,12 +280,13 @@ struct AccuracyConfig {
   AccuracyConfig(const char* wanted) : within(wanted) {}
   static void fields(auto& v) {
     v(&AccuracyConfig::of, "of", unit::none,
-      "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point>; or the kind alone, "
-      "such as reaction, for all of that kind. None: the force of indenters that move as given, the travel of one under force "
-      "control, else the reactions of moved sets, else the displacements of points");
+      "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point> (or "
+      "displacement@<point>), apex_height, pull_off, von_mises_max; or the kind alone, "
+      "such as reaction, for all of that kind. None: the force of indenters that move as given and the pull-off of those that adhere, "
+      "the travel of one under force control, else the reactions of moved sets, else the displacements of points");
     v(&AccuracyConfig::at, "at", unit::none,
-      "where on the path: at its end, where the quantity is largest, or at every step. None: at the end, or at the largest value where "
-      "the path ends below half of it");
+      "where on the path: at its end, where the quantity is largest, or at every step, relative to the largest value. None: at the "
+      "end, or at the largest value where the path ends below half of it");
     v(&AccuracyConfig::within, "within", unit::none, "wanted error, such as 1%", required);
   }
   std::vector<Complaint> complaints() const {
@@ -294,15 +295,23 @@ struct AccuracyConfig {
       found.push_back(
           {"within", "found \"" + within + "\"", "a percentage above 0, such as 1%", ""});
     const auto known = std::array{"force", "reaction", "torque", "travel", "displacement"};
+    const auto alone = std::array{"apex_height", "pull_off", "von_mises_max"};
     const auto is_of = [&](const char* kind) {
-      return *of == kind || of->starts_with(std::string(kind) + "_");
+      return *quantity() == kind || quantity()->starts_with(std::string(kind) + "_");
     };
-    if (of && std::none_of(known.begin(), known.end(), is_of))
+    if (of && std::none_of(known.begin(), known.end(), is_of) &&
+        std::find(alone.begin(), alone.end(), *of) == alone.end())
       found.push_back(
           {"of", "found \"" + *of + "\"",
-           "force, reaction, torque, travel or displacement, or one of them with _ and a name",
+           "force, reaction, torque, travel or displacement, or one of them with _ and a name; or apex_height, pull_off or von_mises_max",
            ""});
     return found;
+  }
+  // `of` as results name it: displacement@P is displacement_P.
+  std::optional<std::string> quantity() const {
+    constexpr std::string_view at_point = "displacement@";
+    if (!of || !of->starts_with(at_point)) return of;
+    return "displacement_" + of->substr(at_point.size());
   }
 };
 
@@ -519,13 +528,22 @@ struct SolveConfig {
                          "one that follows `motion`",
                          "errors are estimated of its force, which is given here"});
       else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) &&
-               (accuracy || fidelity || refines))
+               (accuracy || fidelity || refines) && !(accuracy && accuracy->of))
         found.push_back(
             {key, "found where forces alone load the body",
              "an indenter, an imposed displacement, or points in the mesh",
              "errors are estimated of the force that it needs, or of the displacement of mesh.points; estimate: recovery reports "
              "that of the stress"});
     }
+    if (accuracy && estimate == EstimateBy::dual && accuracy->at &&
+        *accuracy->at != AccuracyAt::end)
+      found.push_back({"accuracy.at", "found together with estimate: dual", "end",
+                       "a dual solution is of one state; estimate: refinement judges the path"});
+    if (accuracy && estimate == EstimateBy::recovery && accuracy->of == "von_mises_max" &&
+        accuracy->at && *accuracy->at != AccuracyAt::end)
+      found.push_back(
+          {"accuracy.at", "found together with estimate: recovery", "end",
+           "the spread of stresses is looked at in the last step; estimate: refinement judges the path"});
     complain_of_instabilities(found);
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off",
