@@ -218,6 +218,7 @@ help:
 	@echo "         JOBS=4               steps at the same time"
 	@echo "         LAUNCH=\"srun -n1\"    put before every command"
 	@echo "         STRICT=1             rebuilt programs make their results again"
+	@echo "         VERBOSE=1            show the commands, and everything that programs say (-v)"
 	@echo "make explain PIPELINE=file    say why each step would run; make times: what each took, which failed"
 	@echo "make test                     set up, build, run every test"
 	@echo "         SANITIZE=1           ... with ASan and UBSan, in build-sanitize"

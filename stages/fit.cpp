@@ -69,6 +69,11 @@ void remove_reached(const Job<FitConfig>& job) {
   std::filesystem::remove(job.side_file("reached_fit.csv"), ignored);
 }
 
+// The lines of a study that a reader acts on: what is known least, and the test to make next.
+bool is_main_line(const std::string& line) {
+  return line.starts_with("least identifiable") || line.starts_with("advice:");
+}
+
 // The search of a fit with or without scenes.
 FitResult search(const Job<FitConfig>& job, const FitProblem& problem,
                  std::optional<InverseFit>& scenes) {
@@ -182,12 +187,12 @@ std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
   for (const std::string& line : fit_results(record)) job.say("{}", line);
   for (const std::string& line : fit_warnings(record, found.material)) job.warn("{}", line);
   if (scenes)
-    for (const std::string& line : scenes->cost()) job.say("{}", line);
+    for (const std::string& line : scenes->cost()) job.detail("{}", line);
   if (config.cross_check == SecondAnswer::nlopt) {
     const Comparison second = cross_check(likelihood_problem(problem, found), found.best,
                                           static_cast<unsigned>(config.seed));
     if (second.agrees) {
-      job.say("{}", second.text);
+      job.detail("{}", second.text);
     } else {
       job.warn("{}", second.text);
     }
@@ -200,11 +205,20 @@ std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
         problem, found, *config.study,
         [&](const std::string& what) { return progress_of("fit", what, job.quiet); },
         next.candidates);
-    for (const std::string& line : study_lines(record.study)) job.say("{}", line);
+    for (const std::string& line : study_lines(record.study)) {
+      if (is_main_line(line)) {
+        job.say("{}", line);
+      } else {
+        job.detail("{}", line);
+      }
+    }
     for (const std::string& line :
          write_study_files(record.study, *config.study, config.figure_style, job.side_file("")))
       job.say("{}", line);
   }
+  if (scenes && config.study && config.study->held.value_or(true))
+    for (const InverseFit::Widening& widening : scenes->widenings(found))
+      job.say("{}", in_words(widening));
   if (config.study && config.study->posterior) {
     const Posterior sampled =
         posterior(problem, found, *config.study->posterior, config.study->threads,

@@ -1,21 +1,25 @@
-// langer show | new | check | serve | describe | schema | explain | times | crate | doctor |
-// completion: commands that read files and configs but compute nothing.
+// langer show | new | check | serve | describe | schema | explain | times | crate | dossier |
+// doctor | completion: commands that read files and configs but compute nothing.
 //
 // Each command has a page in the table of cli/manual.cpp. Its positional arguments and options are
 // taken from there, so a new command needs a line in that table and one in run_command().
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "arguments.hpp"
 #include "cli/check.hpp"
 #include "cli/crate.hpp"
 #include "cli/doctor.hpp"
+#include "cli/dossier.hpp"
 #include "cli/run_state.hpp"
 #include "cli/schemas.hpp"
 #include "cli/show.hpp"
 #include "cli/starter.hpp"
 #include "core/base/say.hpp"
 #include "core/base/text.hpp"
+#include "core/hdf5/replace.hpp"
+#include "core/hdf5/seal.hpp"
 #include "pipeline/plan/effective.hpp"
 #include "pipeline/plan/run_files.hpp"
 #include "program.hpp"
@@ -29,8 +33,9 @@ namespace {
 // The arguments of a command.
 struct Given {
   std::vector<std::string> places;  // positional arguments
-  std::string as, same_as, port, into;
+  std::string as, same_as, port, into, output;
   CrateWords crate;
+  DossierWords dossier;
   bool config = false;
   bool json = false;
   bool list = false;
@@ -132,6 +137,26 @@ int serve_folder(const Given& given) {
   return serve(folder, port);
 }
 
+// `langer dossier`: on stdout, or as a file whose ending says the format.
+int dossier(const Given& given) {
+  const std::string& file = given.output;
+  const std::string& run = given.places[0];
+  if (file.empty()) return print(dossier_text(run, given.dossier, DossierFormat::markdown));
+  const std::string end = std::filesystem::path(file).extension().string();
+  if (end != ".md" && end != ".html")
+    throw Failure(Exit::config, Error{{"langer dossier"},
+                                      "--output",
+                                      "found \"" + file + "\"",
+                                      "the name of an .md or .html file",
+                                      ""});
+  require_own_text(file, "langer dossier");
+  DossierFormat format = DossierFormat::markdown;
+  if (end == ".html") format = DossierFormat::html;
+  write_text_file(file, dossier_text(run, given.dossier, format));
+  say_line("langer: {}", file);
+  return static_cast<int>(Exit::ok);
+}
+
 // `langer doctor`: exit code 3 if a needed program is missing.
 int doctor() {
   const std::vector<Finding> findings = examine();
@@ -169,6 +194,7 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
       static_cast<std::size_t>(std::ranges::count_if(usage.options, is_required_place));
   Arguments options(usage.program);
   if (places) options.texts("places", given.places);
+  if (usage.find("--output")) options.text("-o,--output", given.output);
   for (const auto& [name, text] : {std::pair{"--as", &given.as},
                                    {"--same-as", &given.same_as},
                                    {"--title", &given.crate.title},
@@ -176,6 +202,10 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
                                    {"--license", &given.crate.license},
                                    {"--port", &given.port},
                                    {"--into", &given.into},
+                                   {"--use", &given.dossier.use},
+                                   {"--question", &given.dossier.question},
+                                   {"--risk", &given.dossier.risk},
+                                   {"--tests", &given.dossier.tests},
                                    {"--root", &given.crate.root}})
     if (usage.find(name)) options.text(name, *text);
   for (const auto& [name, flag] : {std::pair{"--config", &given.config},
@@ -202,6 +232,7 @@ int run_command(const Usage& usage, const std::string& name, int argc, char** ar
   if (name == "explain") return print(explain_text(explain(given.places[0])));
   if (name == "times") return print(times_text(times_of(given.places[0]), given.failed));
   if (name == "crate") return crate(given);
+  if (name == "dossier") return dossier(given);
   if (name == "doctor") return doctor();
   return print(completion_text());
 }

@@ -37,17 +37,25 @@ void check_exports(const Job<MeshConfig>& job) {
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
   check_exports(job);
   const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
-  for (const std::string& note : notes) job.say("{}", note);
+  // What was read otherwise than its file says may change a result; where the grid lines of a block
+  // are is a detail.
+  for (const std::string& note : notes) {
+    if (std::holds_alternative<FromFile>(job.config.geometry)) {
+      job.say("{}", note);
+    } else {
+      job.detail("{}", note);
+    }
+  }
   job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(),
           names(mesh.type)[static_cast<int>(mesh.type)], quality.volume);
-  job.say("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}",
-          quality.shortest_edge, quality.longest_edge, quality.largest_aspect,
-          quality.least_scaled_jacobian);
+  job.detail("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}",
+             quality.shortest_edge, quality.longest_edge, quality.largest_aspect,
+             quality.least_scaled_jacobian);
   for (const auto& [name, nodes] : mesh.node_sets) {
     const auto facets = mesh.facet_sets.find(name);
     std::size_t n_facets = 0;
     if (facets != mesh.facet_sets.end()) n_facets = facets->second.size();
-    job.say("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(), n_facets);
+    job.detail("  {:<12} {:>6} nodes {:>6} facets", name, nodes.size(), n_facets);
   }
   const std::vector<Summary> summary{{"nodes", static_cast<double>(mesh.n_nodes()), "-"},
                                      {"cells", static_cast<double>(mesh.n_cells()), "-"},

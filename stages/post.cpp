@@ -3,6 +3,8 @@
 // recorded.
 //   langer-post indentation.yaml --solution solution.h5 -o curves.h5
 //   langer-post --solution solution.h5 --export scene.inp --export scene.feb
+#include <cmath>
+#include <functional>
 #include <set>
 
 #include "arguments.hpp"
@@ -122,6 +124,9 @@ bool any_quantity(const std::vector<Measure>& measures, bool (*property)(const Q
 
 // Properties of quantities that cost extra work.
 bool is_contact_area(const QuantityLine& line) { return is_contact_surface_column(line.word); }
+bool is_applied_pressure(const QuantityLine& line) {
+  return std::string_view(line.word) == "applied_pressure";
+}
 bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
 
@@ -139,12 +144,16 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
   const bool areas = any_quantity(measures, is_contact_area);
   const bool touched = any_quantity(measures, is_contact_value);
   const bool slips = any_quantity(measures, needs_slip);
+  std::function<double(double)> pressure;
+  if (any_quantity(measures, is_applied_pressure))
+    pressure = applied_pressure(solution.reader.header());
   Table table;
   for (const Measure& m : measures) table.columns.push_back({m.name, m.unit, {}});
   for (int row = 0; row <= n_steps; ++row) {
     const StepRecord record = solution.record(row);
     StepState state = state_of(record);
     if (areas) add_contact_numbers(state.histories, contacts.surfaces(), record);
+    if (pressure) state.histories["applied_pressure"] = pressure(state.t);
     if (touched) state.contact = contacts.nodes(row, record, slips);
     state.sums = sums[row];
     GaussValues gauss;
@@ -204,6 +213,92 @@ void add_cycles(const Job<PostConfig>& job, const Table& table, std::vector<Summ
   }
 }
 
+// The unit of an area under a curve: of force over displacement it is N mm.
+std::string product_unit(const std::string& a, const std::string& b) {
+  if (b == "-") return a;
+  if (a == "-") return b;
+  return a + " " + b;
+}
+
+// R0 to R9 of a suction and release. Heights between two states of the path are not guessed: the
+// user is told where the path has to stop.
+void add_suction(const Job<PostConfig>& job, const Table& table, const std::string& name,
+                 const ReadingChoice& choice, std::vector<Summary>& summary) {
+  const std::string key = "readings." + name;
+  const Column& height = column_named(table, *choice.suction_of);
+  const double lasts = table.seconds.size() == table.t.size() ? table.seconds.back() : 0;
+  const double period = *choice.suction + *choice.release;
+  if (!(lasts >= (choice.begins + period) * (1 - 1e-9)))
+    refuse(job, {{key + ".suction",
+                  fmt::format("a cycle of {:g} s from {:g} s on, and the solution lasts {:g} s",
+                              period, choice.begins, lasts),
+                  "a cycle that is complete in the solution, in seconds",
+                  "path.seconds of the solve is the duration of the path"}});
+  std::optional<MissingTime> missing;
+  const SuctionCycles found = suction_cycles(table.seconds, height.values, choice, missing);
+  if (missing)
+    refuse(job, {{key, fmt::format("no state at {:g} s", missing->seconds), "a state at each time",
+                  fmt::format("a waypoint of the pressure at t = {:.6g} makes the path stop there",
+                              missing->seconds / lasts)}});
+  const auto add = [&](const char* what, double value, const std::string& unit) {
+    summary.push_back({name + "_" + what, value, unit});
+  };
+  const std::string mm = height.unit;
+  add("Ue", found.ue, mm);
+  add("Uv", found.uv(), mm);
+  add("Uf", found.uf, mm);
+  add("Ur", found.ur, mm);
+  add("Ua", found.ua, mm);
+  add("R0", found.uf, mm);
+  add("R1", found.uf - found.ua, mm);
+  add("R2", found.ua / found.uf, "-");
+  add("R3", found.last_maximum, mm);
+  add("R4", found.last_minimum, mm);
+  add("R5", found.ur / found.ue, "-");
+  add("R6", found.uv() / found.ue, "-");
+  add("R7", found.ur / found.uf, "-");
+  add("R8", found.ua, mm);
+  add("R9", found.last_maximum - found.uf, mm);
+}
+
+// What devices report (results/post/reading.hpp). A number that the path does not reach is refused:
+// the largest one says how far it goes.
+void add_readings(const Job<PostConfig>& job, const Table& table, std::vector<Summary>& summary) {
+  for (const auto& [name, choice] : job.config.readings) {
+    if (choice.suction_of) {
+      add_suction(job, table, name, choice, summary);
+      continue;
+    }
+    const Column& over = column_named(table, *choice.over);
+    if (choice.hysteresis_of) {
+      const Column& of = column_named(table, *choice.hysteresis_of);
+      const Loop loop = last_loop(over.values, of.values);
+      if (std::isnan(loop.loading))
+        refuse(job, {{"readings." + name, fmt::format("{} never goes back", over.name),
+                      "a path with a loading and an unloading", ""}});
+      summary.push_back({name + "_loss", loop.loss(), product_unit(of.unit, over.unit)});
+      summary.push_back({name + "_ratio", loop.ratio(), "-"});
+      continue;
+    }
+    const bool is_slope = choice.slope_of.has_value();
+    const Column& of = column_named(table, is_slope ? *choice.slope_of : *choice.value_of);
+    double found = value_where(over.values, of.values, *choice.at);
+    std::string unit = of.unit;
+    if (is_slope) {
+      found = slope_where(over.values, of.values, *choice.at);
+      unit = quotient_unit(of.unit, over.unit);
+    }
+    if (std::isnan(found)) {
+      const auto [low, high] = std::ranges::minmax(over.values);
+      refuse(job,
+             {{"readings." + name + ".at",
+               fmt::format("{:g} {}, which {} never reaches", *choice.at, over.unit, over.name),
+               fmt::format("a number from {:.4g} to {:.4g}", low, high), ""}});
+    }
+    summary.push_back({name, found, unit});
+  }
+}
+
 // The last row of the table, the rows of `summary_at`, cycles, and the range of each map.
 std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table,
                                 const std::vector<SurfaceMap>& maps) {
@@ -215,6 +310,7 @@ std::vector<Summary> summary_of(const Job<PostConfig>& job, const Table& table,
       summary.push_back({c.name + "_" + name, c.values[row], c.unit});
   }
   add_cycles(job, table, summary);
+  add_readings(job, table, summary);
   for (const SurfaceMap& map : maps) {
     const auto [low, high] = std::minmax_element(map.values.begin(), map.values.end());
     summary.push_back({map.name + "_min", *low, map.unit});
@@ -247,7 +343,9 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
     else if (line.needs.shapes && !available.energy)
       complaints.push_back({key + ".field",
                             fmt::format("{} needs the shapes of the indenters", line.word),
-                            "a solution whose config this version can read", ""});
+                            "a solution whose config this version can read, without contact of "
+                            "deformable surfaces",
+                            ""});
   };
   for (const auto& [name, map] : config.maps) needs_contact("maps." + name, map.field);
   for (const auto& [name, keyed] : renders) needs_contact(keyed.first, keyed.second.field);

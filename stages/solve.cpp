@@ -28,6 +28,16 @@ namespace {
 
 using Summaries = std::vector<Summary>;
 
+// `failure` with what is known of the stability of the path until then.
+FailedWork with_verdict(const Failure& failure, const RunWatch& watch, const Run& run,
+                        int n_steps) {
+  Summaries numbers{{"exit_code", static_cast<double>(failure.code()), "-"},
+                    {"t", run.t(), "-"},
+                    {"steps", static_cast<double>(n_steps), "-"}};
+  for (const Summary& s : watch.stability_summary()) numbers.push_back(s);
+  return {failure, {numbers, watch.texts()}};
+}
+
 // The inputs of the stage, read once for all models that are solved.
 struct Case {
   Job<SolveConfig> job;
@@ -146,7 +156,7 @@ Summaries add_vibration(const Job<SolveConfig>& job, const SolveConfig& config, 
 }
 
 // Solves the current model. Returns its results, or nothing if another model has to be solved.
-std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
+std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
   const Job<SolveConfig>& job = input.job;
   SolveConfig config = model.config();
   Mesh mesh = model.mesh();
@@ -160,7 +170,7 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   if (branch) run.switch_branch(branch->at);
   if (ranks() && !ranks()->first()) {
     run_worker_rank(run, job.dry_run, config);
-    return Summaries{};
+    return StageResults{};
   }
   if (!run.serial_reason.empty()) report_idle_ranks(job, run.serial_reason);
 
@@ -177,7 +187,12 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
   run.resume_all();
   Progress progress(job.voice(), run);
   const Interruptible signals_are_noted;
-  const RunEnd end = follow_load_path(job, observers, progress);
+  RunEnd end;
+  try {
+    end = follow_load_path(job, observers, progress);
+  } catch (const Failure& failure) {
+    throw with_verdict(failure, watch, run, observers.recording->n_steps());
+  }
   if (end.at == RunEnd::At::not_homogeneous) {
     model.leave_homogeneous_point();
     return std::nullopt;
@@ -205,16 +220,26 @@ std::optional<Summaries> solve_model(const Case& input, ModelChoice& model) {
               of_vibration, recording.impact_summary()});
   recording.finish(results, histories_of(errors));
   progress.finished(end.path, run.statics, recording.seconds());
+  // Forces with the deviation of the parameters have been named with their error bars.
+  if (forces.empty()) report_results(job.voice(), config, run, end.last, errors.at_end);
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
-  if (decision.action == Decision::Action::stop) model.require_accuracy(errors.at_end, job.output);
   const Summaries of_fibres{{"fibre_jump", fibre_jump, "deg"}};
-  return joined(
-      {summary_of(run, end, recording.n_steps()), results, of_fibres, watch.stability_summary()});
+  const StageResults all(joined({summary_of(run, end, recording.n_steps()), results, of_fibres,
+                                 watch.stability_summary()}),
+                         watch.texts());
+  try {
+    if (decision.action == Decision::Action::stop)
+      model.require_accuracy(errors.at_end, job.output);
+  } catch (const Failure& failure) {
+    throw FailedWork(failure, all);
+  }
+  return all;
 }
 
-Summaries solve(const Job<SolveConfig>& given) {
+StageResults solve(const Job<SolveConfig>& given) {
   Job<SolveConfig> job = given;
+  if (job.dry_run) job.verbose = true;  // asked what it would do, it says all of it
   expand_bodies(job.config, job.where.tree);
   // A worker rank notes a signal and waits for rank 0, which ends the run for all.
   std::optional<Interruptible> worker_signals;
@@ -225,7 +250,7 @@ Summaries solve(const Job<SolveConfig>& given) {
   }
 
   const Case input = read_case(job);
-  if (const auto copy = reuse_mirrored_solution(input)) return *copy;
+  if (const auto copy = reuse_mirrored_solution(input)) return {*copy};
 
   ModelChoice model(job.voice(), input.job.config, input.mesh_file, input.material, job.where,
                     job.dry_run);

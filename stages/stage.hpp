@@ -46,6 +46,10 @@ struct Task {
   void say(fmt::format_string<Parts...> form, Parts&&... parts) const {
     voice().say(form, std::forward<Parts>(parts)...);
   }
+  template <class... Parts>
+  void detail(fmt::format_string<Parts...> form, Parts&&... parts) const {
+    voice().detail(form, std::forward<Parts>(parts)...);
+  }
   // A warning is printed with --quiet, too.
   template <class... Parts>
   void warn(fmt::format_string<Parts...> form, Parts&&... parts) const {
@@ -58,17 +62,32 @@ struct Job : Task {
   Config config;
 };
 
+// What --json prints.
+struct StageResults {
+  std::vector<Summary> numbers;
+  std::vector<TextResult> texts;
+  StageResults(std::vector<Summary> numbers_ = {}, std::vector<TextResult> texts_ = {})
+      : numbers(std::move(numbers_)), texts(std::move(texts_)) {}
+};
+
+// A failure of a stage that has found something nevertheless: --json prints that, too.
+struct FailedWork : Failure {
+  StageResults results;
+  FailedWork(const Failure& failure, StageResults results_)
+      : Failure(failure), results(std::move(results_)) {}
+};
+
 // The parts of a program that depend on the type of its config.
 struct StageWork {
   std::function<ReadConfig(Tree)> read;  // throws Failure(config)
-  std::function<std::vector<Summary>()> work;
+  std::function<StageResults()> work;
   std::function<std::vector<std::string>()> side_files;  // names of the files the config asks for
 };
 int run_stage(int argc, char** argv, const std::string& name, Task& task, const StageWork& own);
 
-template <class Config>
-int run_stage(int argc, char** argv, const std::string& name,
-              std::vector<Summary> (*work)(const Job<Config>&),
+// Results: StageResults, or the numbers alone.
+template <class Config, class Results>
+int run_stage(int argc, char** argv, const std::string& name, Results (*work)(const Job<Config>&),
               std::vector<std::string> (*side_files)(const Config&) = nullptr) {
   Job<Config> job;
   StageWork own;
@@ -76,7 +95,7 @@ int run_stage(int argc, char** argv, const std::string& name,
     return read_stage_config(std::move(tree), job.config);
   };
   own.work = [&job, work] {
-    return work(job);
+    return StageResults(work(job));
   };
   own.side_files = [&job, side_files] {
     if (!side_files) return std::vector<std::string>();

@@ -116,6 +116,17 @@ std::vector<Usage> table_of_commands() {
             "/",
             {}}},
           "langer crate runs/indentation --license https://creativecommons.org/licenses/by/4.0/"),
+      command(
+          "langer dossier",
+          "Writes the evidence for a run after ASME V&V 40: verification, validation, "
+          "uncertainty, and what is missing.",
+          {{"RUN", "", "folder of a run", "/", {}, true},
+           {"-o,--output", "FILE", "a .md or .html; Markdown on stdout by default", "md html", {}},
+           {"--use", "TEXT", "context of use", "", {}},
+           {"--question", "TEXT", "question of interest", "", {}},
+           {"--risk", "TEXT", "influence of the model and consequence of a wrong decision", "", {}},
+           {"--tests", "FILE", "log of ctest: build/Testing/Temporary/LastTest.log", "log", {}}},
+          "langer dossier runs/indentation -o dossier.html --use \"rank two indenters\""),
       command("langer doctor",
               "Lists the programs and libraries that Langer can use, and what does not work "
               "without the missing ones.",

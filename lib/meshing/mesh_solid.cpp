@@ -143,9 +143,11 @@ class SolidMesher {
     const std::string found =
         fmt::format("the mesh has {:.3g} mm^3, the surface encloses {:.3g} mm^3 ({:+.2g} %)",
                     made.quality.volume, enclosed_, 100 * change);
+    std::string other;
+    if (hexahedra_) other = ", and so does cells: tet15 at the same edge";
     if (std::abs(change) > refused)
       refuse(found, "a mesh with the volume of the surface",
-             "a smaller edge follows the surface better");
+             "a smaller edge follows the surface better" + other);
     made.notes.push_back("warning: " + found +
                          ": straight edges cut off what is curved; "
                          "a smaller edge follows the surface better");

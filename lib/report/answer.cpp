@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "core/base/text.hpp"
 #include "core/config/tree.hpp"
@@ -76,7 +78,7 @@ std::string shape_words(const Tree* rigid) {
   if (!rigid || rigid->map.empty()) return "an indenter";
   const auto& [shape, keys] = rigid->map[0];
   std::string text = "a " + shape;
-  if (shape == "ellipsoid") text = "an " + shape;
+  if (shape == "ellipsoid" || shape == "aperture") text = "an " + shape;
   if (const Tree* radius = keys.find("radius"))
     text += fmt::format(" of radius {} mm", radius->scalar);
   return text;
@@ -104,12 +106,11 @@ double resisting(const StepRecord& step) {
   return step.force_ind.norm();
 }
 
-// The force with its error bar, if an estimate is available.
-std::string with_error(double force, const KnownError& error) {
-  if (std::isfinite(error.percent)) {
-    return fmt::format("{:.4g}\u00a0N ± {:.2g}\u00a0%", force, error.percent);
-  }
-  return fmt::format("{:.4g}\u00a0N", force);
+// A force or torque with its error bar, if an estimate is available.
+std::string with_error(double value, const std::string& unit, const KnownError& error) {
+  const std::string text = rounded(value, error.percent) + "\u00a0" + unit;
+  if (!std::isfinite(error.percent)) return text;
+  return fmt::format("{} ± {:.2g}\u00a0%", text, error.percent);
 }
 
 // The verb of an indentation: a force-controlled indenter, one that is pushed back by the body, or
@@ -130,6 +131,102 @@ std::string contact_words(const Tree& contact) {
   return text + "without friction";
 }
 
+// The shape and friction of all indenters, as facts.
+void add_contact_facts(Answer& answer, const Tree* contacts) {
+  if (!contacts) return;
+  for (const auto& [name, contact] : contacts->map)
+    answer.facts.push_back({name, contact_words(contact)});
+}
+
+// The nodes on which the load with the largest pressure acts.
+std::vector<int> nodes_under_pressure(const Mesh& mesh, const Tree& config) {
+  const Tree* loads = config.find("loads");
+  if (!loads) return {};
+  for (const Tree& load : loads->list) {
+    const Tree* on = load.find("on");
+    const Tree* pressure = load.find("pressure");
+    if (!on || !pressure || pressure->kind == Tree::Kind::null) continue;
+    const auto set = mesh.node_sets.find(on->scalar);
+    if (set != mesh.node_sets.end()) return set->second;
+  }
+  return {};
+}
+
+// The node in the middle of a surface; of an axisymmetric section that on the axis.
+std::optional<std::size_t> apex_of(const Mesh& mesh, const std::vector<int>& nodes) {
+  Vec3 middle = Vec3::Zero();
+  for (const int node : nodes)
+    middle += mesh.X[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
+  if (mesh.section && mesh.section->of == SectionOf::axisymmetric) middle[0] = 0;
+  std::optional<std::size_t> apex;
+  for (const int node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    if (!apex || (mesh.X[i] - middle).norm() < (mesh.X[*apex] - middle).norm()) apex = i;
+  }
+  return apex;
+}
+
+// Describes a suction: its pressure, and how far the apex of the dome has come since it began. The
+// plate of a probe may have been pressed on before.
+void describe_suction(Answer& answer, const SolutionReader& solution, const Tree& config,
+                      const std::function<double(double)>& pressure) {
+  const Mesh& mesh = solution.header().mesh;
+  StepRecord sucked = solution.step(0);  // the last one under the strongest suction
+  std::optional<StepRecord> before;      // the last one before it
+  bool begun = false;
+  for (int i = 0; i < solution.n_steps(); ++i) {
+    StepRecord step = solution.step(i);
+    const double now = pressure(step.t);
+    begun = begun || now < 0;
+    if (!begun) {
+      before = std::move(step);
+    } else if (now <= (1 - 1e-9) * pressure(sucked.t)) {
+      sucked = std::move(step);
+    }
+  }
+  std::vector<Vec3> from(sucked.u.size(), Vec3::Zero());
+  if (before) from = before->u;
+  double height = 0;
+  if (const auto apex = apex_of(mesh, nodes_under_pressure(mesh, config)))
+    height = (sucked.u[*apex] - from[*apex]).norm();
+  const Tree* contacts = config.find("contacts");
+  std::string through;
+  if (contacts && !contacts->map.empty())
+    if (const Tree* rigid = contacts->map[0].value.find("rigid"))
+      if (const Tree* aperture = rigid->find("aperture"))
+        if (const Tree* radius = aperture->find("radius"))
+          through = fmt::format(" through a hole of radius {} mm", radius->scalar);
+  const double suction = -pressure(sucked.t);
+  answer.sentence = fmt::format(
+      "Suction of {:.4g} MPa ({:.4g} mbar){} on a body of {}: the apex rises by {:.3g}\u00a0mm",
+      suction, 1e4 * suction, through, size_of(mesh), height);
+  if (before) answer.facts.push_back({"apex", "height since the suction began"});
+  if (contacts && !contacts->map.empty())
+    answer.facts.push_back({"force on the plate", fmt::format("{:.4g} N", resisting(sucked))});
+  add_contact_facts(answer, contacts);
+}
+
+// The name of what is turned, "disc" of the history torque_disc; empty if nothing is.
+std::string turned_name(const StepRecord& step) {
+  for (const auto& [name, value] : step.scalars) {
+    if (!name.starts_with("torque_") || name.ends_with("_error")) continue;
+    if (step.scalars.contains("angle_" + name.substr(7))) return name.substr(7);
+  }
+  return "";
+}
+
+// Describes a twist: the angle and the torque that it takes.
+void describe_twist(Answer& answer, const SolutionReader& solution, const Tree& config,
+                    const std::string& name) {
+  const StepRecord last = solution.step(solution.n_steps() - 1);
+  const double torque = last.scalars.at("torque_" + name);
+  const KnownError error = known_error(solution.summary(), "torque_" + name, torque);
+  answer.sentence = fmt::format("A body of {}, turned by {:.4g}° at {}: torque {}",
+                                size_of(solution.header().mesh), last.scalars.at("angle_" + name),
+                                name, with_error(torque, "N\u00a0mm", error));
+  add_contact_facts(answer, config.find("contacts"));
+}
+
 // Describes an indentation. The error of the force is estimated at the last step and for a single
 // indenter, so an error bar is shown only there.
 void describe_contact(Answer& answer, const SolutionReader& solution, const Tree& config) {
@@ -147,13 +244,12 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   indenter[0] = 'A';
   std::string moment = ", at its greatest travel";
   if (last) moment = "";
-  answer.sentence = fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
-                                motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
-                                size_of(solution.header().mesh), moment, with_error(force, error));
+  answer.sentence =
+      fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
+                  motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
+                  size_of(solution.header().mesh), moment, with_error(force, "N", error));
   if (!alone) answer.sentence += ", the sum over all indenters";
-  if (!contacts) return;
-  for (const auto& [name, contact] : contacts->map)
-    answer.facts.push_back({name, contact_words(contact)});
+  add_contact_facts(answer, contacts);
 }
 
 // One load in words, as "displacement 6 mm". A load with a history is shown as in the config.
@@ -243,6 +339,21 @@ KnownError known_error(const std::vector<Summary>& summary, const std::string& n
   return {number, 100 * value(name + "_error") / std::abs(number)};
 }
 
+// Two digits of the error if it begins with 1, otherwise one.
+std::string rounded(double value, double percent) {
+  const double error = 0.01 * percent * std::abs(value);
+  if (!(error > 0) || !std::isfinite(error)) return fmt::format("{:.4g}", value);
+  const int power = static_cast<int>(std::floor(std::log10(error)));
+  const bool begins_with_1 = error < 2 * std::pow(10.0, power);
+  int last = power;  // of the last digit shown
+  if (begins_with_1) --last;
+  // An error larger than the number leaves its first digit; one of rounding, twelve digits.
+  const int first = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  last = std::clamp(last, first - 5, first);
+  const double digit = std::pow(10.0, last);
+  return fmt::format("{:.{}f}", std::round(value / digit) * digit, std::max(0, -last));
+}
+
 // A solution without contact nodes is described by its loads.
 Answer answer_of(const SolutionReader& solution, const std::string& label) {
   Answer answer;
@@ -255,7 +366,16 @@ Answer answer_of(const SolutionReader& solution, const std::string& label) {
     // contains only what the results themselves show.
   }
   if (solution.n_steps() == 0) return answer;
-  if (header.contact_nodes.empty())
+  const StepRecord last = solution.step(solution.n_steps() - 1);
+  const std::function<double(double)> pressure = applied_pressure(header);
+  // A history has few corners: a hundred places find a suction without reading the steps.
+  bool sucked = false;
+  for (int k = 1; k <= 100; ++k) sucked = sucked || pressure(0.01 * k) < 0;
+  if (sucked)
+    describe_suction(answer, solution, config, pressure);
+  else if (const std::string turned = turned_name(last); !turned.empty())
+    describe_twist(answer, solution, config, turned);
+  else if (header.contact_nodes.empty())
     describe_loads(answer, solution, config);
   else
     describe_contact(answer, solution, config);

@@ -33,6 +33,10 @@ struct KnownError {
 KnownError known_error(const std::vector<Summary>& summary, const std::string& name,
                        double fallback);
 
+// A number to the digit that its error leaves known: of 9.497 with 1.6 % this is 9.50, with 9
+// % 9.5. Without an error four digits.
+std::string rounded(double value, double percent);
+
 // label: the member of a sweep; empty for a single solution
 Answer answer_of(const SolutionReader& solution, const std::string& label);
 

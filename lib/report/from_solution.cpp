@@ -111,8 +111,8 @@ void judge_errors(const AddVerdict& add, const std::vector<Summary>& summary, do
     const auto [value, percent] = known_error(summary, name, fallback);
     if (!std::isfinite(value) || value == 0) continue;
     any = true;
-    const std::string text =
-        fmt::format("{} {:.4g} {} ± {:.2g} % by mesh and increments", name, value, s.unit, percent);
+    const std::string text = fmt::format("{} {} {} ± {:.2g} % by mesh and increments", name,
+                                         rounded(value, percent), s.unit, percent);
     if (name != "force")
       add(Level::note, text);
     else if (percent <= wanted)
@@ -212,10 +212,12 @@ void judge_deformation(const AddVerdict& add, const History& history) {
                     100 * largest(history, "volume_change")));
 }
 
-// Columns of error estimates.
-void add_estimates(const AddVerdict& add, const History& history) {
+// Columns of error estimates along the path. Those that the summary judges at the end are left out.
+void add_estimates(const AddVerdict& add, const History& history,
+                   const std::vector<Summary>& summary) {
   for (const auto& [name, values] : history)
-    if (name.find("error") != std::string::npos && !values.empty())
+    if (name.find("error") != std::string::npos && !values.empty() &&
+        std::ranges::find(summary, name, &Summary::name) == summary.end())
       add(Level::note, fmt::format("{}: {:.3g} at the end, at most {:.3g}", name, values.back(),
                                    largest(history, name)));
 }
@@ -285,7 +287,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
     judge_equilibrium(add, history);
     judge_stability(add, history);
     judge_deformation(add, history);
-    add_estimates(add, history);
+    add_estimates(add, history, solution.summary());
     const auto forces = indenter_forces(solution, group, history);
     judge_contact(add, forces, history);
     judge_resolution(add, solution.summary());

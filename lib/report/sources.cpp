@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/hdf5/h5.hpp"
+#include "results/store/curves_file.hpp"
 #include "results/store/provenance.hpp"
 
 namespace langer::report {
@@ -67,6 +68,21 @@ double value_or_nan(const std::vector<Summary>& summary, const std::string& name
   return found->value;
 }
 
+// The columns that a post config asked for, in its order; of other files none.
+std::vector<std::string> asked_for(const std::string& path) {
+  std::vector<std::string> names;
+  if (read_origin(path).schema != curves_schema.name) return names;
+  for (const Column& c : read_curves(path).curves.columns) names.push_back(c.name);
+  return names;
+}
+
+// Where a quantity stands in a table: what was asked for first, then the rest as it comes. The
+// parts of an error follow the number that they belong to only if that was asked for.
+std::size_t rank_of(const std::string& name, const std::vector<std::string>& asked) {
+  const auto found = std::ranges::find(asked, name);
+  return static_cast<std::size_t>(found - asked.begin());
+}
+
 }  // namespace
 
 std::vector<Source> labelled(const std::vector<std::string>& paths) {
@@ -114,6 +130,9 @@ void add_summaries(ReportPage& page, const std::string& title, const std::vector
         table.columns.push_back({s.name, s.unit});
   }
   if (table.columns.size() == 1) return;
+  const std::vector<std::string> asked = asked_for(sources.front().path);
+  std::ranges::stable_sort(table.columns.begin() + 1, table.columns.end(), {},
+                           [&](const TableColumn& c) { return rank_of(c.name, asked); });
   for (std::size_t i = 0; i < sources.size(); ++i) {
     std::vector<Cell> row{sources[i].label};
     for (std::size_t c = 1; c < table.columns.size(); ++c)

@@ -194,11 +194,17 @@ int run(Task& task, const StageSpec& spec, const CommandLine& given, RunLog& log
       choose_side_folder(task, spec, own.side_files());
     });
   }
-  const std::vector<Summary> results = own.work();
+  StageResults results;
+  try {
+    results = own.work();
+  } catch (const FailedWork& failed) {
+    if (task.json) put_out(json_text(task.identity, failed.results.numbers, failed.results.texts));
+    throw;
+  }
   if (task.verbose)
     say_line("{}: {:.2f} s, {:.2f} s of CPU, {:.0f} MB at most", spec.name, wall_seconds(),
              cpu_seconds(), 1e-6 * peak_bytes());
-  if (task.json) put_out(json_text(task.identity, results));
+  if (task.json) put_out(json_text(task.identity, results.numbers, results.texts));
   return static_cast<int>(Exit::ok);
 }
 

@@ -1,8 +1,8 @@
 // Measurements printed by `make bench`: CPU seconds of this process, so that a busy machine
 // disturbs them little.
 //   langer-bench [case ...]     cases: assembly, solvers, indentation, fit, sobol;
-//                               only when named: coverage, inverse, price, inverse_coverage, relaxation, paper, depths, grading, growth, ranks,
-//                               wide, control
+//                               only when named: coverage, inverse, price, inverse_coverage, thickness_prior, relaxation, paper, depths, grading, growth, ranks,
+//                               wide, control, motion, instabilities
 #include <fmt/format.h>
 
 #include <array>
@@ -27,11 +27,14 @@ void measure_fit();       // fit.cpp
 void measure_coverage();  // coverage.cpp
 void measure_relaxation_coverage();
 void measure_candidates();
-void measure_wide();     // wide.cpp
-void measure_control();  // control.cpp
-void measure_inverse();  // inverse.cpp
+void measure_wide();           // wide.cpp
+void measure_control();        // control.cpp
+void measure_instabilities();  // instabilities.cpp
+void measure_inverse();        // inverse.cpp
+void measure_motion();         // motion.cpp
 void measure_price();
 void measure_inverse_coverage();
+void measure_thickness_prior();
 
 namespace {
 
@@ -191,6 +194,7 @@ int main(int argc, char** argv) {
   if (asked.count("inverse")) measure_inverse();
   if (asked.count("price")) measure_price();
   if (asked.count("inverse_coverage")) measure_inverse_coverage();
+  if (asked.count("thickness_prior")) measure_thickness_prior();
   if (wanted("sobol")) measure_sobol(test::table1(0, 1e-6));
   if (asked.count("paper"))
     for (int threads : {1, 2}) {
@@ -204,6 +208,8 @@ int main(int argc, char** argv) {
   if (asked.count("ranks")) measure_ranks(skin);
   if (asked.count("wide")) measure_wide();
   if (asked.count("control")) measure_control();
+  if (asked.count("motion")) measure_motion();
+  if (asked.count("instabilities")) measure_instabilities();
   if (asked.count("candidates")) measure_candidates();
   if (asked.count("grading")) {
     test::Indentation scene;

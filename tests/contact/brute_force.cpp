@@ -11,6 +11,7 @@
 
 #include "contact/random_problem.hpp"
 #include "mechanics/contact/local_problem.hpp"
+#include "support/near.hpp"
 #include "support/slow_build.hpp"
 
 using namespace langer;
@@ -160,4 +161,21 @@ TEST_CASE("a thousand random problems have the solution that a search through al
   MESSAGE(several << " with more than one solution, " << none << " where the search finds none");
   CHECK(wrong == 0);
   CHECK(none <= 2);  // where forces are 1e4 times the rest, the search misses; the solver does not
+}
+
+TEST_CASE("of several solutions of an indefinite problem the one next to the start is found") {
+  // x = 1 - 2 r: both r = 0 with x = 1 and r = 1/2 with x = 0 fulfil the law.
+  const LocalProblem problem{Vec3(-2, 1, 1).asDiagonal(), Vec3(1, 0, 0), VecX::Zero(1)};
+  const auto found_from = [&](double start, bool next_to_start) {
+    VecX r = Vec3(start, 0, 0);
+    LocalOptions options;
+    options.next_to_start = next_to_start;
+    const LocalReport report = solve_local(problem, r, options);
+    CHECK(report.converged);
+    CHECK(test::law_defect(problem, r) < 1e-12);
+    return r[0];
+  };
+  CHECK(found_from(0.4, true) == near(0.5));
+  CHECK(found_from(0.1, true) == 0);
+  CHECK(found_from(0.4, false) == 0);
 }

@@ -1,9 +1,9 @@
 // Bodies in motion, stepped in memory.
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "mechanics/dynamics/inertia.hpp"
@@ -46,10 +46,15 @@ class Moving {
     NewtonOptions options;
     options.relative = relative;
     const SolveReport report = newton(statics_->problem(), statics_->trial(), options);
-    CAPTURE(done_);
-    CAPTURE(report.why);
-    REQUIRE(report.converged());
+    if (!report.converged()) {
+      throw std::runtime_error("step " + std::to_string(done_) + ": " + report.why);
+    }
     statics_->accept();
+  }
+  // Continues from another state, at the beginning of the path.
+  void restart_from(const BodyState& state) {
+    done_ = 0;
+    statics_->restore(state);
   }
   double force() const {  // of all contacts [N]
     Vec3 sum = Vec3::Zero();

@@ -50,6 +50,9 @@ bool holds(const std::string& text, const std::string& part) {
 
 const std::string neo_hooke = "matrix: {neo_hooke: {a1: 0.03}}, volume: {quadratic: {d: 1e-6}}";
 const std::string a1 = "{key: matrix.neo_hooke.a1}";
+const std::string a1_and_fibres =
+    a1 +
+    ", {key: \"fibres[0].hgo.c1\"}, {key: \"fibres[0].hgo.c2\", upper: 200}, {key: \"fibres[0].alpha\"}";
 
 // Incompressible neo-Hookean tension: the nominal stress of an energy a1 (I1 - 3) [MPa].
 double nominal_stress(double a, double stretch) {
@@ -253,4 +256,36 @@ TEST_CASE("a modulus is found from compression that counts positive") {
   write("pulled.txt", pushed);
   const std::string sized = "file: pulled.txt, width: 10, thickness: 2, gauge_length: 40, sign: -1";
   CHECK(std::abs(fitted(config(sized, neo_hooke, a1))[0] - 0.01) < 1e-9);
+}
+
+TEST_CASE(
+    "five numbers of GOH are found from three protocols of mouse skin, none worse than of HGO") {
+  std::string data = SOURCE_DIR "/../shared/data/murine_skin_biaxial.csv";
+  if (!std::filesystem::exists(data))
+    data = SOURCE_DIR "/../../shared/data/murine_skin_biaxial.csv";
+  if (!std::filesystem::exists(data)) {
+    MESSAGE("skipped: no ../shared/data/murine_skin_biaxial.csv");
+    return;
+  }
+  const auto found = [&](const std::string& subject, const std::string& kappa) {
+    FitConfig one = config(
+        "file: \"" + std::filesystem::absolute(data).string() +
+            "\", kind: biaxial, columns: {strain_x: stretch_x, strain_z: stretch_y, stress_x: "
+            "cauchy_stress_x_MPa, stress_z: cauchy_stress_y_MPa}, strain: stretch, stress: cauchy, "
+            "where: {subject: \"" +
+            subject + "\", sample: \"1\"}, split: protocol",
+        "matrix: {neo_hooke: {a1: 0.01}}, fibres: [{hgo: {c1: 0.1, c2: 1}, alpha: 20, kappa: " +
+            kappa + "}], volume: {quadratic: {d: 1e-6}}",
+        a1_and_fibres + (kappa == "0" ? "" : ", {key: \"fibres[0].kappa\"}"));
+    one.noise_model = NoiseKind::white;
+    return fit(fit_problem(one), {one.searches(), 1, {}});
+  };
+  const FitResult goh = found("111", "0.2");
+  const FitResult hgo = found("111", "0");
+  REQUIRE(goh.best.converged);
+  REQUIRE(hgo.best.converged);
+  CHECK(goh.quality.r2 > 0.9);
+  CHECK(goh.best.cost < hgo.best.cost);
+  CHECK(goh.best.p[4] > 0.2);
+  CHECK(goh.best.p[4] < 1. / 3);
 }

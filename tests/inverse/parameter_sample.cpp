@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "identification/inverse/uncertainty.hpp"
 #include "support/laws.hpp"
 
 using namespace langer;
@@ -66,4 +67,40 @@ TEST_CASE("sets stay within bounds, a bootstrap gives its own, and what has no s
   file.fit->covariance.setConstant(std::nan(""));
   CHECK(reason_without_samples(file, 1) == "a fit without standard errors of its parameters");
   CHECK(reason_without_samples(MaterialFile{}, 1) == "no fit");
+}
+
+TEST_CASE(
+    "what a force is not known to because people differ follows from the scatter of a population") {
+  MaterialFile file = fitted();
+  PopulationRecord population;
+  population.names = {"a1", "c1"};
+  population.keys = {"matrix.yeoh.a1", "fibres[0].hgo.c1"};
+  population.units = {"MPa", "MPa"};
+  population.links = {"log", "log"};
+  population.lower = {0, 0};
+  population.upper = {1, 1};
+  population.median = Eigen::Vector2d(std::log(0.05), std::log(0.1));
+  population.scatter.resize(2, 2);
+  population.scatter << 0.0025, 0.001, 0.001, 0.0016;
+  population.median_covariance = MatX::Zero(2, 2);
+  file.fit->population = population;
+  const ParameterKnowledge known = knowledge_of(file);
+  REQUIRE(known.names == std::vector<std::string>{"a1", "c1"});
+  // people who are drawn have it, to first order in a scatter of 5 %
+  MatX sum = MatX::Zero(2, 2);
+  constexpr int n = 3000;
+  for (int k = 1; k <= n; ++k) {
+    const ParameterSample person = sample_of(file, k);
+    const Eigen::Vector2d d(yeoh(person).a1 - 0.05,
+                            std::get<HgoFibre>(person.law.fibres[0].law).c1 - 0.1);
+    sum += d * d.transpose();
+  }
+  CHECK((sum / n - known.covariance).norm() < 0.06 * known.covariance.norm());
+  // the error of the median adds to it
+  population.median_covariance = population.scatter;
+  file.fit->population = population;
+  CHECK((knowledge_of(file).covariance - 2 * known.covariance).norm() <
+        1e-12 * known.covariance.norm());
+  // and a number that follows a parameter follows it from person to person
+  CHECK(known.keys.size() == 3);
 }

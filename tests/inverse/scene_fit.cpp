@@ -5,12 +5,16 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "core/base/random.hpp"
 #include "identification/inverse/scene_data.hpp"
 #include "identification/setup/fit_config_io.hpp"
+#include "identification/setup/priors.hpp"
 #include "mechanics/mesh/select.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
@@ -474,4 +478,119 @@ TEST_CASE("What a scene does not have, and files that do not fit it, are named w
   holds(longer, "0 to 1 mm");
   write("force.csv", "travel_mm,force_mN\n0.5,10\n0.7,nan\n");
   holds(refusal(with(scene + "columns: {u_ind: travel_mm, force: force_mN}}")), "force.csv:3:5");
+}
+
+namespace {
+
+// The force on the sphere where a number of the scene is another one.
+ForwardPath truth_with(const std::string& key, double value) {
+  write("solve.yaml", solve_yaml);
+  auto loaded = read_config<SolveConfig>(load_yaml(folder + "/solve.yaml"));
+  ForwardRun run(loaded.config, loaded.where, 0);
+  Observation beside{Observation::Of::displacement, 1};
+  beside.nodes = run.mesh().node_sets.at("beside"), beside.weights = {1};
+  run.observe({Observation{}, beside}, {});
+  ForwardInput input{*loaded.config.material};
+  input.numbers[key] = value;
+  return run.solve(input);
+}
+
+// one number of the law and one of the scene, by the force and the displacement beside
+std::string with_number(const std::string& number) {
+  return "data:\n"
+         "  - {kind: scene, solve: solve.yaml, file: force.csv, columns: {u_ind: travel_mm, force: force_mN}}\n"
+         "  - {kind: scene, solve: solve.yaml, file: force.csv, columns: {u_ind: travel_mm, u_y: beside_um}, on: beside}\n" +
+         std::string(law) + "parameters: [{key: matrix.yeoh.a1}, " + number + "]\ndraft: false\n";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "A thickness and a radius of a scene are found again, and start where the scene has them") {
+  for (const auto& [key, value, name] :
+       {std::tuple("mesh.geometry.section.size[1]", 3.4, "thickness"),
+        std::tuple("contacts.sphere.rigid.sphere.radius", 2.1, "sphere_radius")}) {
+    CAPTURE(key);
+    write_force("force.csv", truth_with(key, value));
+    const std::string yaml = with_number("{key: \"" + std::string(key) + "\"}");
+    std::string other = yaml;
+    other.replace(other.find("{a1: 0.02, a2: 0.02, a3: 0.02}"), 30,
+                  "{a1: 0.02, a2: 0.03, a3: 0.01}");
+    const Found found = fitted(other);
+    REQUIRE(found.fit.best.converged);
+    CHECK(found.fit.best.p[0] == near(0.012, 1e-5));
+    CHECK(found.fit.best.p[1] == near(value, 1e-5));
+    const auto loaded = read(other);
+    FitProblem problem = fit_problem(loaded.config);
+    CHECK(std::isnan(problem.free[1].start));
+    complete_scene_numbers(loaded.config, loaded.where, problem);
+    CHECK(problem.free[1].start == near(name == std::string("thickness") ? 3 : 2.5));
+    CHECK(problem.free[1].name == name);
+  }
+}
+
+TEST_CASE("Slopes of a scene by any of its numbers are those of differences of its runs") {
+  write_force("force.csv", truth());
+  for (const char* number :
+       {"{key: \"mesh.geometry.section.size[1]\", start: 3.2}",
+        "{key: contacts.sphere.rigid.sphere.radius, start: 2.3}",
+        "{key: \"contacts.sphere.rigid.sphere.centre[1]\", start: 5.6, lower: 5.51, upper: 6}"}) {
+    CAPTURE(number);
+    const auto loaded = read(with_number(number));
+    FitProblem problem = fit_problem(loaded.config);
+    complete_scene_numbers(loaded.config, loaded.where, problem);
+    const auto slopes = [&](bool quotients) {
+      SceneTests scenes(loaded.config, loaded.where, problem, {}, std::make_shared<RunCache>(),
+                        {1, quotients});
+      MatX J;
+      VecX p(2);
+      p << 0.015, problem.free[1].start;
+      REQUIRE(scenes.slope(p, J));
+      return J;
+    };
+    const MatX direct = slopes(false);
+    const MatX quotients = slopes(true);
+    CHECK((direct - quotients).col(1).norm() <= 2e-3 * quotients.col(1).norm());
+  }
+}
+
+TEST_CASE("Numbers that a scene cannot have otherwise are refused by name") {
+  write_force("force.csv", truth());
+  holds(refusal(with_number("{key: \"mesh.bodies[0].thickness\"}")), "mesh.bodies[0].thickness");
+  holds(refusal(with_number("{key: contacts.sphere.rigid.sphere.diameter}")), "no such number");
+  holds(refusal(with_number("{key: \"contacts.sphere.motion[0].to[1]\"}")), "touch_offset");
+  holds(refusal(with_number("{key: contacts.sphere.rigid.sphere.radius, lower: 3}")), "starts at");
+}
+
+TEST_CASE("A prior of the thickness widens what the force alone says, and what is held is named") {
+  write_force("force.csv", truth());
+  const std::string data = std::string(force) + ", standard_deviation: 0.002}]\n";
+  const std::string law_at =
+      "law: {matrix: {yeoh: {a1: 0.012, a2: 0.03, a3: 0.01}}, volume: {quadratic: {d: 1.0e-2}}}\nbounds: admissible\ndraft: false\n";
+  const std::string two = "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}";
+  const auto errors = [&](const std::string& more, std::vector<InverseFit::Widening>* held) {
+    const auto loaded = read(data + law_at + two + more + "]\n");
+    FitProblem problem = fit_problem(loaded.config);
+    InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {}, "");
+    inverse.set_priors(priors_of(loaded.config, problem, loaded.where));
+    const FitResult found = inverse.search();
+    if (held) *held = inverse.widenings(found);
+    return VecX(found.covariance.diagonal().cwiseSqrt());
+  };
+  std::vector<InverseFit::Widening> held;
+  const VecX fixed = errors("", &held);
+  const std::string thickness = ", {key: \"mesh.geometry.section.size[1]\"";
+  const VecX known = errors(thickness + ", prior: {normal: [3, 0.3]}}", nullptr);
+  const VecX unknown = errors(thickness + "}", nullptr);
+  CHECK(known[2] < 0.3001);
+  CHECK(known[1] > fixed[1]);
+  CHECK(unknown[1] > known[1]);
+  // what freeing the thickness does is what was foretold
+  const auto one = std::ranges::find_if(held, [](const InverseFit::Widening& w) {
+    return w.held.name == "mesh.geometry.section.size[1]";
+  });
+  REQUIRE(one != held.end());
+  const double widest = std::max(unknown[0] / fixed[0], unknown[1] / fixed[1]);
+  CHECK(one->factor == near(widest, 0.02));
+  holds(in_words(*one), "is fixed at 3 mm; freeing it widens");
 }

@@ -42,8 +42,31 @@ std::string listed(const std::vector<std::string>& keys) {
   return "sensitivity: [" + list + "]\n";
 }
 
+// Shapes and thicknesses without the functions under test: a sphere that keeps its lowest point, a
+// block that is meshed anew below its top.
+bool change_geometry(SolveConfig& config, const std::string& key, double by) {
+  if (key.ends_with("sphere.radius")) {
+    auto& sphere = std::get<Sphere>(*config.contacts.at("ball").rigid);
+    sphere.radius += by;
+    sphere.centre[1] += by;
+    return true;
+  }
+  if (key.ends_with("cylinder.radius")) {
+    std::get<Cylinder>(*config.contacts.at("ball").rigid).radius += by;
+    return true;
+  }
+  if (!key.starts_with("mesh.")) return false;
+  auto& block = std::get<Block>(config.mesh->geometry);
+  block.size[1] += by;
+  block.origin[1] -= by;
+  if (key == "mesh.bodies[0].thickness") config.mesh->bodies[0].thickness += by;
+  if (key == "mesh.bodies[1].thickness") config.mesh->bodies[1].thickness += by;
+  return true;
+}
+
 // the number of a config; its own material or that of a body
 void change(SolveConfig& config, const std::string& key, double by) {
+  if (change_geometry(config, key, by)) return;
   if (key.starts_with("contacts.")) {
     for (auto& [name, contact] : config.contacts)
       if (key == "contacts." + name + ".friction") contact.friction += by;
@@ -60,6 +83,9 @@ void change(SolveConfig& config, const std::string& key, double by) {
 
 double value_of(const SolveConfig& config, const std::string& key) {
   SolveConfig other = config;
+  if (const auto value = config_number(config, key);
+      value && key.find("friction") == std::string::npos)
+    return *value;
   if (key.starts_with("contacts.")) return 0.3;
   for (auto& [name, body] : other.materials)
     if (body.material && key.starts_with("materials." + name + "."))
@@ -179,6 +205,29 @@ TEST_CASE(
   check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) +
             "path: {steps: 4}\nsolver: {kinsol: {relative: 1.0e-12}}\nstability: off\n",
         some, 1e-5);
+}
+
+TEST_CASE(
+    "derivatives by the thickness of a layer and the radius of an indenter are those of runs on meshes made anew") {
+  const std::string radius = "contacts.ball.rigid.sphere.radius";
+  const std::string height = "mesh.geometry.block.size[1]";
+  const std::string layers =
+      "  bodies: [{name: fat, thickness: 1.5}, {name: skin, thickness: 1.5}]\n";
+  check(block("hex8", "[6, 2, 6]") + "material: " + skin + ball(0) + four, {radius, height}, 1e-5);
+  check(block("hex8", "[6, 2, 6]", layers) + "material: " + skin +
+            "materials: {fat: {material: " + fat + "}}\n" + ball(0) + four,
+        {"mesh.bodies[0].thickness", "mesh.bodies[1].thickness"}, 1e-5);
+  check(block("hex8", "[6, 2, 6]") + "material: " + fat + ball(0.3) + four + "symmetry: quarter\n",
+        {radius, height}, 1e-3);
+  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four, {radius}, 1e-5);
+  check(
+      "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: [8, 2, 8]}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " +
+          fat +
+          "contacts: {ball: {on: top, rigid: {cylinder: {radius: 1.7, edge: 0.6, face: [0, 3, 0]}}, motion: "
+          "[{t: 1, to: [0, -0.6, 0]}]}}\n" +
+          four,
+      {"contacts.ball.rigid.cylinder.radius", height}, 1e-5);
 }
 
 // scalars of the last step against differences of runs

@@ -198,8 +198,8 @@ TEST_CASE("a recipe is one plain command with a launcher in front, programs are 
   CHECK(
       text.find(
           "\nb/x.h5: b/x.yaml a/mesh.h5 $(if $(STRICT),$(BIN)/langer-x) | $(BIN)/langer-x\n"
-          "\t$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 --log $(basename $@).log -o $@\n") !=
-      std::string::npos);
+          "\t$(if $(VERBOSE),,$(info making $@)@)$(LAUNCH) $(BIN)/langer-x b/x.yaml --mesh a/mesh.h5 "
+          "$(if $(VERBOSE),-v )--log $(basename $@).log -o $@\n") != std::string::npos);
   for (const char* line : {".DELETE_ON_ERROR:", "LAUNCH ?=", "BIN ?= ../../build/bin"}) {
     CAPTURE(line);
     CHECK(text.find(std::string("\n") + line) != std::string::npos);

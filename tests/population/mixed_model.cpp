@@ -101,6 +101,71 @@ TEST_CASE("a balanced one-way layout has the estimates of the textbook") {
         near(n * (determinant + m * std::log(2 * pi)) + n * m, 1e-9));
 }
 
+TEST_CASE("the posterior of a balanced one-way layout is that of its closed form") {
+  // With beta integrated, p(omega, sigma) of n specimens of m values has with v = omega^2 +
+  // sigma^2/m
+  //   -n (m - 1) ln sigma - SSW / (2 sigma^2) - (n - 1)/2 ln v - SSB / (2 v),   flat in omega, ln sigma
+  constexpr int n = 10;
+  constexpr int m = 4;
+  Random random(11);
+  std::vector<MixedSpecimen> specimens;
+  std::vector<double> means;
+  double within = 0;
+  for (int i = 0; i < n; ++i) {
+    VecX y(m);
+    const double level = 3 + 0.5 * random.normal();
+    for (double& value : y) value = level + 0.4 * random.normal();
+    means.push_back(y.mean());
+    within += (y.array() - y.mean()).matrix().squaredNorm();
+    MixedSpecimen one;
+    one.design = MatX::Ones(1, 1);
+    one.residual = [y](const VecX& phi, VecX& u, MatX* slope) {
+      u = VecX::Constant(y.size(), phi[0]) - y;
+      if (slope) *slope = MatX::Ones(y.size(), 1);
+      return true;
+    };
+    specimens.push_back(one);
+  }
+  double mean = 0;
+  for (const double one : means) mean += one / n;
+  double between = 0;
+  for (const double one : means) between += (one - mean) * (one - mean);
+
+  // sums over a grid of omega and ln sigma
+  double sum = 0, of_omega = 0, of_square = 0, of_beta = 0, of_sigma = 0;
+  for (int i = 0; i < 400; ++i)
+    for (int k = 0; k < 200; ++k) {
+      const double omega = 0.005 * (i + 0.5);
+      const double log_sigma = std::log(0.4) + 0.005 * (k - 100);
+      const double variance = std::exp(2 * log_sigma);
+      const double v = omega * omega + variance / m;
+      const double p = std::exp(-n * (m - 1) * log_sigma - within / (2 * variance) -
+                                0.5 * (n - 1) * std::log(v) - between / (2 * v));
+      sum += p;
+      of_omega += p * omega;
+      of_square += p * omega * omega;
+      of_beta += p * v / n;
+      of_sigma += p * std::exp(log_sigma);
+    }
+  const double expected = of_omega / sum;
+  const double deviation = std::sqrt(of_square / sum - expected * expected);
+
+  const MixedResult found =
+      fit_mixed_model(specimens, start_of(VecX::Ones(1), VecX::Ones(1), 1), {});
+  REQUIRE(found.converged);
+  PosteriorConfig config;
+  config.samples = 4000;
+  const MixedDraws draws = mixed_posterior(specimens, found, {}, config, 1);
+  // about 1500 independent samples: four standard errors
+  CHECK(draws.deviations.mean() == near(expected, 0, 0.1 * deviation));
+  const double second = draws.deviations.array().square().mean();
+  CHECK(std::sqrt(second - std::pow(draws.deviations.mean(), 2)) == near(deviation, 0.15));
+  CHECK(draws.beta.mean() == near(mean, 0, 0.1 * std::sqrt(of_beta / sum)));
+  const double spread = (draws.beta.array() - draws.beta.mean()).square().mean();
+  CHECK(spread == near(of_beta / sum, 0.15));
+  CHECK(draws.sigma.mean() == near(of_sigma / sum, 0.02));
+}
+
 TEST_CASE("a scatter that is not there ends at zero, not in a failure") {
   Random random(3);
   std::vector<MixedSpecimen> specimens;

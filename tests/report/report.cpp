@@ -56,6 +56,18 @@ TEST_CASE(
   CHECK_FALSE(mirror_residual("u", {0, 30, 45}, {1, 2, 3}));
 }
 
+TEST_CASE("a number is shown to the digit that its error leaves known") {
+  CHECK(rounded(9.497, 1.6) == "9.50");  // 0.152: two digits of an error that begins with 1
+  CHECK(rounded(9.511, 8.8) == "9.5");   // 0.84
+  CHECK(rounded(9.511, 100) == "10");    // no digit is known; the first one stays
+  CHECK(rounded(1234.5, 5) == "1230");   // 62
+  CHECK(rounded(-0.0123456, 3) == "-0.0123");
+  CHECK(rounded(2, 0) == "2");
+  CHECK(rounded(0, 5) == "0");
+  CHECK(rounded(3.14159265, std::numeric_limits<double>::quiet_NaN()) == "3.142");
+  CHECK(rounded(3.14159265, 1e-9) == "3.14159");  // six digits are enough for a sentence
+}
+
 TEST_CASE("columns in words") {
   CHECK(in_words("u_y_A") == "displacement u_y, A");
   CHECK(in_words("von_mises_max") == "greatest von Mises stress");

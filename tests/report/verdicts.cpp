@@ -63,6 +63,6 @@ TEST_CASE(
     CHECK(says(all, Level::good, "within the 3 % wanted") == (percent <= 3));
   }
   CHECK(says(verdicts(2, with_error(0.02), "0.5%"), Level::warning,
-             "force 2 N ± 1 % by mesh and increments: more than the 0.5 % wanted"));
+             "force 2.00 N ± 1 % by mesh and increments: more than the 0.5 % wanted"));
   CHECK(says(verdicts(2, {}, "3%"), Level::note, "is not known"));
 }

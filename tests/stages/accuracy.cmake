@@ -25,7 +25,7 @@ function(expect_within percent force right)
   endif()
 endfunction()
 
-run(0 ${BIN}/langer-solve beside.yaml -o asked.h5 --json --set accuracy=2%)
+run(0 ${BIN}/langer-solve beside.yaml -o asked.h5 --json -v --set accuracy=2%)
 expect_said("2 % wanted")
 expect_said("the study has no scene of this kind")
 number(accuracy_percent reached)
@@ -44,7 +44,7 @@ file(WRITE ${folder}/pulled.yaml "include: configs/solve/held_block.yaml
 estimate: refinement
 accuracy: 0.3%
 ")
-run(0 ${BIN}/langer-solve pulled.yaml -o pulled.h5 --json)
+run(0 ${BIN}/langer-solve pulled.yaml -o pulled.h5 --json -v)
 expect_said("wanted: hex27")
 expect_said("instead of the config's hex8")
 expect_said("again with hex27")
@@ -75,7 +75,7 @@ symmetry: none
 path: {first: 0.5, largest: 0.5}
 estimate: dual
 ")
-run(0 ${BIN}/langer-solve graded.yaml -o graded.h5 --set accuracy=60%)
+run(0 ${BIN}/langer-solve graded.yaml -o graded.h5 -v --set accuracy=60%)
 expect_said("of the mesh as it is")
 run(0 ${BIN}/langer-solve graded.yaml --dry-run --set accuracy=1%)
 expect_said("(not with --dry-run)")
@@ -126,7 +126,7 @@ expect_said("asked for 0.01 %")
 expect_said("its cells are not cut: hex8 alone are")
 
 # an estimate that takes its turn by itself does not where it takes longer than a third of the solve
-run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 --set estimate=auto)
+run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 -v --set estimate=auto)
 expect_said("errors are estimated by recovery: other meshes would take more than a third of the solve")
 
 # without the key there is a bar all the same, at each step

@@ -73,7 +73,7 @@ solve_says(0 "never touches the body"
 # several indenters: the force of each by name, their sum, and the support's reaction
 solve_says(0 "contacts: 2" "  a: {on: contact, rigid: {sphere: {radius: 2, centre: [0, 6, 0]}}, motion: [{t: 1, to: [0, -0.3, 0]}]}
   b: {rigid: {sphere: {radius: 2, centre: [4, 6, 3]}}, motion: [{t: 1, to: [0, -0.5, 0]}]}
-path: {steps: 2}" --json)
+path: {steps: 2}" -v --json)
 foreach(name force force_a force_b)
   string(REGEX MATCH "\"${name}_N\"[^0-9]*([0-9.e-]+)" _ "${said}")
   set(${name} ${CMAKE_MATCH_1})
@@ -107,7 +107,7 @@ foreach(friction 0 0.05 0.34 3)
   foreach(part 0.25 0.1)
     file(REMOVE ${project}/r.h5.part)
     run(0 ${BIN}/langer-solve configs/solve/smoke.yaml --mesh m.h5 --material configs/material/abdomen_hgo_yeoh.yaml -o r.h5
-      --set contacts.sphere.motion[0].t=0.5 --set path.first=${part} --set path.largest=${part} --set contacts.sphere.friction=${friction})
+      -v --set contacts.sphere.motion[0].t=0.5 --set path.first=${part} --set path.largest=${part} --set contacts.sphere.friction=${friction})
     string(REGEX MATCH "t 0.5000[^\n]*force ([0-9.]+) N.*t 1.0000[^\n]*force ([0-9.]+) N" _ "${said}")
     if(NOT CMAKE_MATCH_1 OR NOT CMAKE_MATCH_1 STREQUAL CMAKE_MATCH_2)
       message(FATAL_ERROR "the force changes while nothing moves, friction ${friction}:\n${said}")

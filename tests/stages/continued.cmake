@@ -12,7 +12,7 @@ run(0 ${solve} -o whole/solution.h5 --quiet)
 function(stop_early output)
   file(REMOVE_RECURSE ${folder}/${output})
   execute_process(COMMAND sh -c "exec \"$@\" 2> said & p=$!
-while ! grep -q '^step   4' said && kill -0 $p; do sleep 0.01; done; kill -INT $p; wait $p" sh env --default-signal=INT ${solve} -o ${output}/solution.h5
+while ! grep -q '^step   4' said && kill -0 $p; do sleep 0.01; done; kill -INT $p; wait $p" sh env --default-signal=INT ${solve} -v -o ${output}/solution.h5
     WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
   expect_equal(${code} 130 "exit code after SIGINT")
 endfunction()

@@ -19,7 +19,7 @@ file(WRITE ${WORK}/project/own.yaml
   "geometry: {file: {path: own.inp, scale: 0.001}}\nsets: {low: {of: bottom, within: {plane: {axis: y, at: 0}}}}\nexport: [inp]\n")
 run(2 ${BIN}/langer-mesh own.yaml -o own.h5)
 expect_said("own.yaml:3:1: export: own.inp is the file that geometry names")
-run(0 ${BIN}/langer-mesh own.yaml -o other.h5)
+run(0 ${BIN}/langer-mesh own.yaml -o other.h5 -v)
 expect_said("\"left side\" is called left_side here")
 expect_said("5.76e-07 mm^3")
 expect_said("  low              81 nodes     64 facets")

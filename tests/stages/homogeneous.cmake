@@ -11,7 +11,7 @@ loads: [{on: x_max, displacement: {x: 2}}]
 path: {steps: 10}
 stability: off
 ")
-run(0 ${BIN}/langer-solve strip.yaml -o changes/solution.h5)
+run(0 ${BIN}/langer-solve strip.yaml -o changes/solution.h5 -v)
 expect_said("homogeneous: one hexahedron stands for 8 cells")
 expect_said("homogeneous: the mesh no longer balances, and is solved from there on")
 expect_said("continues after 6 steps, at t = 0.6")  # stretch 1.3

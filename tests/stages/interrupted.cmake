@@ -26,7 +26,7 @@ said $p '^step   3'; freeze $p; before=$(grep -c '^step' said)
 kill -${signal} $p; thaw $p
 wait $p; code=$?
 echo steps $(($(grep -c '^step' said) - before)); exit $code\n")
-  execute_process(COMMAND sh ${WORK}/stop.sh env --default-signal=INT ${solve} ${signal}/solution.h5 RESULT_VARIABLE code OUTPUT_VARIABLE steps)
+  execute_process(COMMAND sh ${WORK}/stop.sh env --default-signal=INT ${solve} ${signal}/solution.h5 -v RESULT_VARIABLE code OUTPUT_VARIABLE steps)
   file(READ ${folder}/said said)
   expect_equal(${code} ${expected} "exit code after SIG${signal}")
   if(NOT steps MATCHES "^steps [01]\n")
@@ -84,7 +84,7 @@ file(WRITE ${WORK}/far.sh "cd ${WORK}; . ./watch.sh; cd ${folder}
 \"$@\" 2> said & p=$!
 said $p '^step   3'; freeze $p; kill -INT $p; thaw $p; wait $p\n")
 set(far ${BIN}/langer-solve far.yaml -o far/solution.h5)
-execute_process(COMMAND sh ${WORK}/far.sh env --default-signal=INT ${far} RESULT_VARIABLE code)
+execute_process(COMMAND sh ${WORK}/far.sh env --default-signal=INT ${far} -v RESULT_VARIABLE code)
 expect_equal(${code} 130 "exit code after SIGINT")
 run(0 ${far} --quiet)
 expect_said("solve: warning: contacts.s: the indenter never touches the body: nearest at t = 1, 0.5 mm from (0, 4, 0)")

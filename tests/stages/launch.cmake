@@ -16,5 +16,5 @@ endforeach()
 
 # a launcher of several words
 file(REMOVE_RECURSE ${WORK}/project/runs/smoke/mesh/mesh.h5)
-run(0 make -C runs/smoke "LAUNCH=env LANGER_TEST=1" mesh/mesh.h5)
+run(0 make -C runs/smoke VERBOSE=1 "LAUNCH=env LANGER_TEST=1" mesh/mesh.h5)
 expect_said("env LANGER_TEST=1 ")

@@ -87,6 +87,24 @@ file(APPEND ${WORK}/tried.html [=[
   };
   drag3d([300, 300], [360, 270]);
   await note('turned');
+  // turned, the body stays within its frame: no paint at the rim of the picture
+  let fills = true;
+  const painted = () => {
+    const sheet = document.createElement('canvas'), pen = sheet.getContext('2d');
+    sheet.width = canvas.width;
+    sheet.height = canvas.height;
+    pen.drawImage(canvas, 0, 0);
+    const { data: px, width: w, height: h } = pen.getImageData(0, 0, sheet.width, sheet.height), at = (x, y) => px[4 * (y * w + x)] < 240 || px[4 * (y * w + x) + 1] < 240;
+    let rim = 0, all = 0;
+    for (let y = 0; y < h; ++y) for (let x = 0; x < w; ++x) if (at(x, y)) { ++all; rim += x < 3 || y < 3 || x > w - 4 || y > h - 4; }
+    return { rim, part: all / (w * h) };
+  };
+  for (let k = 0; k < 6; ++k) {
+    for (let j = 0; j < 5; ++j) press3d(k % 2 ? 'ArrowUp' : 'ArrowLeft');
+    await frames();
+    const found = painted();
+    fills = fills && found.rim === 0 && found.part > 0.02;
+  }
   const placed = () => +document.getElementById('at').value;
   await set('clip', 'x');
   const before = placed();
@@ -141,6 +159,13 @@ file(APPEND ${WORK}/tried.html [=[
   root.dataset.parts = widths.length > 0 && widths.every(([all, ...parts]) => parts.reduce((n, w) => n + w - 1, 1) === all);
   dispatchEvent(new Event('afterprint'));
   root.dataset.unnamed = document.querySelectorAll('svg[role=img]:not([aria-label]), canvas[role=img]:not([aria-label])').length;
+  // a smooth line passes through its points, and between two of them stays between their values
+  const points = [[0, 0], [10, 3], [20, 3.5], [40, 30], [50, 12], [60, 11]], drawn = L.smoothPath(points).replace(/[MCL]/g, ' ').trim().split(/\s+/).map(Number);
+  const knots = points.map((p, k) => k === 0 ? drawn.slice(0, 2) : drawn.slice(6 * k, 6 * k + 2));
+  const between = points.slice(1).every((q, k) => [3, 5].every(j => { const y = drawn[6 * k + j], p = points[k]; return y >= Math.min(p[1], q[1]) - 0.06 && y <= Math.max(p[1], q[1]) + 0.06; }));
+  root.dataset.smooth = between && points.every((p, k) => Math.abs(p[0] - knots[k][0]) < 0.06 && Math.abs(p[1] - knots[k][1]) < 0.06);
+  root.dataset.rounded = [L.rounded(9.497, 0.152), L.rounded(9.511, 0.83), L.rounded(1234.5, 60), L.rounded(-0.0123456, 0.0004), L.rounded(2, 0)].join('|');
+  root.dataset.fills = fills;
   root.dataset.tried = pictures.join(' ');
 })();
 </script>
@@ -155,7 +180,8 @@ endif()
 string(REGEX MATCH "<html[^>]*>" root "${dom}")
 message("${root}")
 foreach(expected "data-errors=\"\"" "data-ready=\"yes\"" "data-view=\"ready\"" "data-picked=\"displacement u_y [^\"]* mm" "data-hovered=\"alpha = " "data-zoomed=\"true\"" "data-whole=\"true\""
-    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"" "data-unlabelled=\"0\"" "data-cutmoved=\"true\"" "data-cutput=\"true\"" "data-paper=\"true\"" "data-parts=\"true\"")
+    "data-logarithmic=\"true\"" "data-walked=\"alpha = " "data-saved=\"svg\"" "data-csv=\"true\"" "data-unnamed=\"0\"" "data-unlabelled=\"0\"" "data-cutmoved=\"true\"" "data-cutput=\"true\"" "data-paper=\"true\"" "data-parts=\"true\""
+    "data-smooth=\"true\"" "data-fills=\"true\"" "data-rounded=\"9.50[|]9.5[|]1230[|]−0.0123[|]2\"")
   if(NOT root MATCHES "${expected}")
     message(FATAL_ERROR "the page in the browser lacks ${expected}:\n${root}\n${log}")
   endif()

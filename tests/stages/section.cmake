@@ -3,7 +3,7 @@ include(${ROOT}/tests/support/run.cmake)
 copy_project()
 set(folder ${WORK}/project)
 run(0 ${BIN}/langer-plan pipelines/axisymmetric.yaml -o runs/axisymmetric)
-run(0 make -C runs/axisymmetric)
+run(0 make -C runs/axisymmetric VERBOSE=1)
 expect_said("axisymmetric section: forces and energies are those of the whole body")
 expect_said("force 10.77 N +- ")
 foreach(file post/curves.csv post/render.svg report/report.html)
@@ -51,7 +51,7 @@ material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-4}}}
 supports: [{on: bottom, hold: [x, y]}]
 loads: [{on: top, displacement: {x: 0.4, y: -0.2}}]
 ")
-run(0 ${BIN}/langer-solve strip.yaml -o strip.h5)
+run(0 ${BIN}/langer-solve strip.yaml -o strip.h5 -v)
 expect_said("plane-strain section: forces and energies are those of 10 mm along z")
 file(WRITE ${folder}/strip_post.yaml "columns: [{quantity: t}, {quantity: reaction_x, at: top}, {quantity: reaction_y, at: bottom}, {quantity: balance}]\nsnapshots: [last]\n")
 run(0 ${BIN}/langer-post strip_post.yaml --solution strip.h5 -o strip_curves.h5)
@@ -77,10 +77,10 @@ contacts: {ball: {rigid: {sphere: {radius: 2.5, centre: [10, 4.5, 10]}}, motion:
 symmetry: auto
 path: {steps: 2}
 ")
-run(0 ${BIN}/langer-solve block.yaml -o block/solution.h5)
+run(0 ${BIN}/langer-solve block.yaml -o block/solution.h5 -v)
 expect_said("the same around an axis but for its sides: reduce: auto solves a section")
 expect_said("mirror x and mirror z")
-run(0 ${BIN}/langer-solve block.yaml -o in_place/solution.h5 --set reduce=auto --set accuracy=1%)
+run(0 ${BIN}/langer-solve block.yaml -o in_place/solution.h5 -v --set reduce=auto --set accuracy=1%)
 expect_said("a section of a disc of 11.28 mm, of the block's area, takes its place")
 expect_said("axisymmetric section")
 run(0 ${BIN}/langer show in_place/solution.h5)

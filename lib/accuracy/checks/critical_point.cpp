@@ -7,10 +7,12 @@
 #include <map>
 #include <numbers>
 
+#include "accuracy/checks/place_text.hpp"
 #include "core/base/text.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/solve/critical_modes.hpp"
 #include "mechanics/solve/symmetry_breaking.hpp"
+#include "results/store/curves_file.hpp"
 
 namespace langer {
 
@@ -278,8 +280,30 @@ void describe(Run& run, const VecX& last_move, CriticalPoint& point) {
 std::string CriticalPoint::words() const {
   std::string text = fmt::format("{} at t = {:.5g}", kind, t);
   if (load_factor != t) text += fmt::format(", load factor {:.5g}", load_factor);
+  if (place) text += " near " + place_text(*place);
   if (!symmetry.empty()) text += fmt::format("; its mode is {}", symmetry);
   return text;
+}
+
+CriticalPoint point_between(const std::string& kind, double t_before, const StepRecord& record,
+                            const std::optional<Vec3>& place) {
+  CriticalPoint point;
+  point.kind = kind;
+  point.t = record.t;
+  point.within = record.t - t_before;
+  const auto factor = record.scalars.find("load_factor");
+  point.load_factor = factor == record.scalars.end() ? record.t : factor->second;
+  point.place = place;
+  return point;
+}
+
+std::string table_of(const CriticalPoint& point) {
+  std::string angle;
+  if (point.angle) angle = fmt::format("{:.6g}", *point.angle);
+  return fmt::format(
+      "critical_t,critical_load_factor,critical_kind,critical_symmetry,critical_wave_angle_deg\n"
+      "{:.10g},{:.10g},{},{},{}\n",
+      point.t, point.load_factor, csv_cell(point.kind), csv_cell(point.symmetry), angle);
 }
 
 std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& before,
@@ -345,6 +369,45 @@ std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& 
   run.put_at(last.t, last.state, before.state);
   describe(run, last.state.u - before.state.u, point);
   if (point.kind.empty()) return std::nullopt;
+  return point;
+}
+
+std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
+                                         const StateOnPath& first, const StateOnPath& last) {
+  constexpr double gap = 0.3;  // share of the movement that is left where the path has no jump
+  const double t_now = run.t();
+  const BodyState now = run.statics.accepted();
+  const auto distance = [](const StateOnPath& a, const StateOnPath& b) {
+    return (a.state.u - b.state.u).norm();
+  };
+  const double jump = distance(first, last);
+  StateOnPath earlier = before;
+  StateOnPath low = first;
+  StateOnPath high = last;
+  bool jumps = true;
+  while (jumps && high.t - low.t > 2 * located * std::min(1.0, high.t)) {
+    const double t = 0.5 * (low.t + high.t);
+    run.put_at(low.t, low.state, earlier.state);
+    if (!run.solve_at(t).converged()) {
+      high.t = t;  // beyond the last equilibrium on this side
+      continue;
+    }
+    run.statics.accept();
+    StateOnPath middle{t, run.statics.accepted(), low.negative};
+    if (distance(middle, low) > distance(middle, high)) {
+      high = std::move(middle);
+    } else {
+      earlier = std::move(low);
+      low = std::move(middle);
+    }
+    jumps = distance(low, high) > gap * jump;
+  }
+  std::optional<CriticalPoint> point;
+  if (jumps) point = critical_point_at_end(run, earlier, low, 0.5 * (high.t - low.t));
+  if (point) point->t = 0.5 * (low.t + high.t);
+  if (point) point->load_factor = low.state.t + 0.5 * (high.t - low.t);
+  run.put_at(t_now, now, now);
+  run.body.pressures_from(now.u);
   return point;
 }
 

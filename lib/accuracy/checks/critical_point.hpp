@@ -23,9 +23,10 @@ struct CriticalPoint {
   double t = 0;            // middle of the bracket
   double within = 0;       // half of its length
   double load_factor = 0;  // t itself but on paths with arc lengths
-  std::string kind;      // "limit point of load", "limit point of travel", "bifurcation", "jump to
-                         // another path"
-  std::string symmetry;  // of the mode: "antisymmetric in x, symmetric in z"; may be empty
+  // "limit point of load", "limit point of travel", "bifurcation", "jump to another path"; and
+  // without a mode "loss of strong ellipticity", "crease", "loss of support", "loss of stability"
+  std::string kind;
+  std::string symmetry;         // of the mode: "antisymmetric in x, symmetric in z"; may be empty
   int before = 0, after = 0;    // negative eigenvalues
   std::vector<Vec3> mode;       // (n) of the whole body, the largest movement 1
   std::optional<double> angle;  // of the waves of the mode on the top face, from x towards z [deg]
@@ -33,8 +34,16 @@ struct CriticalPoint {
   BodyState state;    // the last one before, of the model
   BodyState earlier;  // the one that it was found from
   double t_state = 0;
+  std::optional<Vec3> place;  // in the reference state, of what happens in a point [mm]
   std::string words() const;  // "bifurcation at t = 0.4321 (...)"
 };
+
+// Of a verdict that needs no mode, met between two steps. place: of what happens in a point
+CriticalPoint point_between(const std::string& kind, double t_before, const StepRecord& record,
+                            const std::optional<Vec3>& place = {});
+
+// A table of one row: place on the path, load factor, kind, symmetry, direction of the waves.
+std::string table_of(const CriticalPoint& point);
 
 // A state of a run and its place on the path.
 struct StateOnPath {
@@ -54,6 +63,12 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
 // `left` of the path after it there is no equilibrium.
 std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& before,
                                                    const StateOnPath& last, double left);
+
+// The limit point between two accepted states from the first of which the run jumped to a distant
+// one: smaller increments from the first leave a gap that does not close. Nothing where it closes,
+// as the path is only steep there. The run is left where it was.
+std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
+                                         const StateOnPath& first, const StateOnPath& last);
 
 // The modes of the body at the accepted state of a run without contact, as node movements of the
 // model (3 n), the largest component 1.

@@ -31,8 +31,8 @@ std::string forces_of(const StepRecord& record) {
   return each;
 }
 
-// A status line is rewritten in place on a terminal only; a log file would collect every version.
-bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose && !said::log; }
+// Iterations are shown in the status line of a terminal only; a file would collect them all.
+bool rewrites(const Voice& voice) { return on_terminal() && !voice.verbose; }
 
 // The size of the model, for the first line of a run.
 std::string sizes(const Run& run) {
@@ -77,7 +77,7 @@ Progress::Progress(const Voice& voice, const Run& run)
   if (!scene.contacts.empty()) contacts = std::to_string(scene.contacts.size());
   std::string ranks;
   if (run.shared_by()) ranks = fmt::format("; {} ranks", run.shared_by()->n());
-  voice_.say("{}; fibre families: {}; contacts: {}{}", sizes(run), families, contacts, ranks);
+  voice_.detail("{}; fibre families: {}; contacts: {}{}", sizes(run), families, contacts, ranks);
 }
 
 // A continued run counts its remaining time from where it continues.
@@ -117,7 +117,7 @@ Problem Progress::watched(Problem problem, double t) {
 // interrupts: an assessment that is not admissible stops the iteration.
 RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of) {
   const std::string who = fmt::format("errors: scene {} of {}", n, of);
-  voice.say("{}, {}", who, sizes(run));
+  voice.progress(who + ", " + sizes(run));
   RunListener listener;
   listener.watched = [voice, who, seen = !voice.quiet && (voice.verbose || rewrites(voice))](
                          Problem problem, double t) {
@@ -138,8 +138,7 @@ RunListener estimate_progress(const Voice& voice, const Run& run, int n, int of)
 }
 
 // One line for each step that was found: the load, the effort, and the quality of the state. An
-// unstable state is always printed, even where the status line is rewritten. NaN counts as
-// unstable, hence the negated comparison.
+// unstable state is always printed. NaN counts as unstable, hence the negated comparison.
 void Progress::accepted(const StepRecord& record, const SolveReport& report) {
   ++step_;
   if (voice_.quiet) return;
@@ -149,7 +148,7 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
     line += fmt::format("  u_ind {:.4f} mm  force {} N", record.u_ind.norm(), forces_of(record));
   line += fmt::format("  {}  residual {:.1e}{}", iterations(report.iterations, report.again),
                       record.residual, left(record.t));
-  if (live_) say_status(line);
+  const std::string brief = line;
   line += fmt::format("  J_min {:.4f}", record.scalars.at("J_min"));
   if (const auto stiffness = record.scalars.find("shear_stiffness_min");
       stiffness != record.scalars.end()) {
@@ -172,7 +171,11 @@ void Progress::accepted(const StepRecord& record, const SolveReport& report) {
         slip, record.scalars.at("penetration"), record.scalars.at("cone"),
         record.scalars.at("complementarity"));
   }
-  if (!live_ || unstable) say_line(line);
+  if (unstable) {
+    say_line(line);
+  } else {
+    progress_line(brief, line, voice_.verbose);
+  }
 }
 
 // A jump may pass through many equilibria at the same t: a message every ten seconds shows that the
@@ -187,7 +190,7 @@ void Progress::jumping(double t, int equilibria) {
 }
 
 void Progress::failed(double t, const SolveReport& report) const {
-  voice_.say("no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
+  voice_.detail("no equilibrium found at t = {:.6g}: {}; the increment is halved", t, report.why);
 }
 
 // Totals of a run: steps, memory, and where the CPU time was spent.
@@ -195,7 +198,7 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
   const Statics::Cost cost = statics.cost();
   voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps,
              iterations(path.iterations, path.again), path.cut_backs, 1e-6 * peak_bytes());
-  voice_.say(
+  voice_.detail(
       "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
       "files {:.2f}",
       cost.analysis, cost.assembly, cost.factor,
@@ -203,7 +206,7 @@ void Progress::finished(const PathReport& path, const Statics& statics, double f
           std::max(cost.factor, 1e-9),
       cost.solve, cost.contact, files);
   if (statics.n_indefinite() > 0)
-    voice_.say(
+    voice_.detail(
         "{} tangents of iterations, before equilibrium, were not positive definite; this is no statement about "
         "the states found, which stability: each_step examines",
         statics.n_indefinite());

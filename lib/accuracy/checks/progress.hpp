@@ -1,6 +1,7 @@
-// What langer-solve says while it works, on stderr: sizes first, one line per step, costs last. On
-// a terminal the steps are one line that is rewritten, iteration by iteration; with `verbose` every
-// iteration has a line, there and elsewhere.
+// How far langer-solve is. The log and, with `verbose`, stderr have sizes first, one line per step
+// with what it says of the state, costs last; with `verbose` every iteration has a line. Without it
+// a terminal has one line that is rewritten, iteration by iteration, and a file of stderr a step
+// now and then (core/base/say.hpp).
 #pragma once
 
 #include "core/base/voice.hpp"

@@ -8,6 +8,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
+#include "core/hdf5/seal.hpp"
 #include "results/store/vtu.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
@@ -21,13 +22,16 @@ namespace {
 // up to this ratio of the bulk to the shear modulus (a Poisson's ratio of 0.49) they hardly lock.
 constexpr double compressible = 50;
 
-// The mode of a critical point as solution_mode.vtu beside solution.h5.
-void write_mode(const Mesh& mesh, const CriticalPoint& point, const std::string& output) {
+// A critical point as solution_critical.csv beside solution.h5, and its mode as solution_mode.vtu.
+// Both are there for a run that ends before the end of its path, too.
+void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const std::string& output) {
+  std::string name = output;
+  if (name.ends_with(".h5")) name.resize(name.size() - 3);
+  write_text_file(name + "_critical.csv", table_of(point));
+  if (point.mode.empty()) return;
   Field field{"mode", "-", 3, {}};
   for (const Vec3& u : point.mode)
     for (int k = 0; k < 3; ++k) field.values.push_back(u[k]);
-  std::string name = output;
-  if (name.ends_with(".h5")) name.resize(name.size() - 3);
   write_vtu(name + "_mode.vtu", mesh, point.t, {field}, {});
 }
 
@@ -78,7 +82,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
       config_(identity.config),
       observer_(std::move(observer)),
       stress_(run.mesh, run.scene, config.cell_stress),
-      impact_(run.scene),
+      impact_(run.scene, run.inertia.get()),
       collect_(collector(config)),
       file_(
           output,
@@ -91,7 +95,7 @@ Recording::Recording(Run& run, RunWatch& watch, const SolveConfig& config, const
 std::function<void(const StepRecord&)> Recording::collector(const SolveConfig& config) {
   if (!by_refinement(config)) return {};
   return [this, config](const StepRecord& step) {
-    forces_.push_back(step_forces(config, run_.scene, run_.mesh, step));
+    append_step(forces_, step_forces(config, run_.scene, run_.mesh, step));
   };
 }
 
@@ -114,17 +118,16 @@ bool Recording::with_other_settings() const {
 }
 
 RunEnd Recording::follow(const Voice& voice, Progress& progress, const std::string& loose) {
-  if (!loose.empty()) voice.say("{}: only contact holds it", loose);
+  if (!loose.empty()) voice.detail("{}: only contact holds it", loose);
   if (with_other_settings())
     voice.say(
         "these steps were made with other settings: /provenance/earlier of the result holds them");
   const RunEnd end = along_the_path(progress);
   if (end.at == RunEnd::At::not_homogeneous) return end;
-  watch_.locate(end);
-  if (const auto& critical = watch_.critical(); critical && !critical->mode.empty())
-    write_mode(run_.mesh, *critical, output_);
+  watch_.locate(end, !loose.empty());
+  if (const auto& critical = watch_.critical()) write_critical_point(run_.mesh, *critical, output_);
   for (const std::string& line : watch_.warnings()) voice.warn(line);
-  for (const std::string& line : watch_.notes()) voice.say("{}", line);
+  for (const std::string& line : watch_.notes()) voice.detail("{}", line);
   if (end.path.complete)
     for (const std::string& line : watch_.contact_warnings()) voice.warn(line);
   need_the_end(end, loose);

@@ -54,8 +54,25 @@ bool RunWatch::follows_states() const {
          run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
 }
 
-void RunWatch::take_state(StateOnPath state) {
+// Under dead loads an increment may pass a limit point: Newton's method then finds a distant state,
+// which may well be stable. It shows in a movement much faster than before, found through tangents
+// that were not positive definite.
+void RunWatch::take_jump(const StateOnPath& state, bool doubtful) {
+  constexpr double faster = 1.5;  // a longer search decides
+  const bool dead_loads = run_.scene.contacts.empty() && !run_.scene.loads.empty();
+  if (jump_ || !doubtful || !dead_loads || run_.path.arc_length) return;
+  if (!before_ || !(before_->t < last_->t)) return;
+  const auto rate = [](const StateOnPath& a, const StateOnPath& b) {
+    return (b.state.u - a.state.u).norm() / (b.t - a.t);
+  };
+  if (rate(*last_, state) > faster * rate(*before_, *last_))
+    jump_ = Crossing{*before_, *last_, state};
+}
+
+// doubtful: tangents of the increment were not positive definite, or nothing is known of them
+void RunWatch::take_state(StateOnPath state, bool doubtful) {
   if (crossing_) return;
+  if (last_) take_jump(state, doubtful);
   if (!last_) {
     last_ = StateOnPath{0, at_rest(state.state), 0};
     before_ = last_;
@@ -101,8 +118,105 @@ void RunWatch::take_turning(const StepRecord& record) {
   }
 }
 
-void RunWatch::locate(const RunEnd& end) {
-  if (!follows_states() || critical_) return;
+// Where the line between two values, the second of which is negative, is 0. The load factor moves
+// with t where it is t.
+void RunWatch::move_to_root(CriticalPoint& point, const std::optional<Sample>& before,
+                            const Sample& now) {
+  if (!before || !(before->value > 0) || !std::isfinite(now.value)) return;
+  const bool same = point.load_factor == point.t;
+  point.t -= (now.t - before->t) * now.value / (now.value - before->value);
+  if (same) point.load_factor = point.t;
+}
+
+// The first step in which a point of the body has lost strong ellipticity, and the first that is
+// unstable.
+void RunWatch::take_losses(const StepRecord& record) {
+  const auto value = [&](const char* name) {
+    const auto found = record.scalars.find(name);
+    return found == record.scalars.end() ? 0 : found->second;
+  };
+  const double stiffness = value("shear_stiffness_min");
+  if (!material_lost_ && stiffness < 0) {
+    const Vec3 place(value("weakest_x"), value("weakest_y"), value("weakest_z"));
+    material_lost_ = point_between("loss of strong ellipticity", t_looked_, record, place);
+    move_to_root(*material_lost_, stiffness_before_, {record.t, stiffness});
+  }
+  stiffness_before_ = Sample{record.t, stiffness};
+  if (!stability_lost_ && value("negative_eigenvalues") != 0)
+    stability_lost_ = point_between("loss of stability", t_looked_, record);
+  t_looked_ = record.t;
+}
+
+// The condition is local: where it is violated, waves of any short length grow, shorter than the
+// cells can show.
+void RunWatch::take_surface(const StepRecord& record, const BodyState& state) {
+  const bool off = locate_ == LocateCritical::off || when_ == StabilityCheck::off;
+  if (surface_lost_ || off || mesh_ || run_.body.viscous() || run_.body.division() ||
+      !run_.scene.surfaces.empty())
+    return;
+  if (!surface_) surface_.emplace(run_.body, run_.reduction.scene().loads);
+  const auto found = surface_->weakest(run_.body, state, run_.statics.contacts());
+  if (found && found->margin < 0) {
+    surface_lost_ = point_between("crease", t_looked_, record, found->place);
+    move_to_root(*surface_lost_, margin_before_, {record.t, found->margin});
+  }
+  margin_before_.reset();
+  if (found) margin_before_ = Sample{record.t, found->margin};
+}
+
+void RunWatch::take_support(const StepRecord& record) {
+  if (record.contacts.empty()) return;
+  double pressed = 0;
+  for (const auto& [name, contact] : record.contacts)
+    for (const Vec3& r : contact.r) pressed += r.norm();
+  support_.push_back({record.t, pressed});
+  if (support_.size() > 2) support_.erase(support_.begin());
+}
+
+// A body that contact alone restrains: its reactions fall to 0 within what is left of the path
+// after the last state. By the line through the last two.
+std::optional<CriticalPoint> RunWatch::support_lost(const RunEnd& end) const {
+  if (end.at != RunEnd::At::no_equilibrium || support_.empty()) return std::nullopt;
+  const Sample& last = support_.back();
+  double t = last.t;
+  if (last.value > 0) {
+    if (support_.size() < 2) return std::nullopt;
+    const Sample& before = support_.front();
+    const double fall = (before.value - last.value) / (last.t - before.t);
+    if (!(fall > 0)) return std::nullopt;
+    t = last.t + last.value / fall;
+    const double increment = last.t - before.t;
+    if (t - last.t > 2 * std::max(increment, run_.path.smallest)) return std::nullopt;
+  }
+  CriticalPoint point;
+  point.kind = "loss of support";
+  point.t = point.load_factor = t;
+  point.within = t - last.t;
+  return point;
+}
+
+void RunWatch::locate(const RunEnd& end, bool only_contact) {
+  if (critical_ || locate_ == LocateCritical::off || when_ == StabilityCheck::off) return;
+  if (only_contact) critical_ = support_lost(end);
+  if (critical_) return;
+  locate_bifurcation(end);
+  if (jump_ && (!critical_ || jump_->first.t < critical_->t)) {
+    const auto point = locate_jump(run_, jump_->before, jump_->first, jump_->last);
+    if (point) {
+      critical_ = point;
+    } else {
+      jump_.reset();
+    }
+  }
+  // Verdicts that need no search are known to an increment, which a point in the same one beats.
+  for (const auto& lost : {material_lost_, surface_lost_, stability_lost_}) {
+    const bool first = lost && (!critical_ || lost->t < critical_->t);
+    if (first && !(lost->kind == "loss of stability" && !turnings_.empty())) critical_ = lost;
+  }
+}
+
+void RunWatch::locate_bifurcation(const RunEnd& end) {
+  if (!follows_states()) return;
   if (crossing_) {
     const bool breaking = breaking_at(false) && run_.reduction.kind() == Reduction::Kind::symmetry;
     critical_ =
@@ -116,8 +230,11 @@ void RunWatch::kept(const StepRecord& step) {
   take_turning(step);
   if (const auto found = step.scalars.find("negative_eigenvalues");
       found != step.scalars.end() && follows_states()) {
-    take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))});
+    take_state({step.t, run_.state_from(step), static_cast<int>(std::abs(found->second))}, true);
   }
+  if (!mesh_ && !run_.body.viscous()) take_surface(step, run_.state_from(step));
+  take_losses(step);
+  take_support(step);
   stability_.resume(step);
   if (contact_) contact_->kept(step);
   if (const auto found = step.scalars.find("shear_stiffness_min"); found != step.scalars.end()) {
@@ -169,10 +286,15 @@ bool RunWatch::of_part(StepRecord& record) {
     // change from the step before
     int negative = std::abs(report->signature->negative);
     if (report->breaking && breaking_at(false)) negative += std::abs(report->breaking->negative);
-    take_state({record.t, run_.statics.accepted(), negative});
+    const bool doubtful = run_.statics.n_indefinite() > n_indefinite_;
+    n_indefinite_ = run_.statics.n_indefinite();
+    take_state({record.t, run_.statics.accepted(), negative}, doubtful);
   }
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
+  take_surface(record, run_.statics.accepted());
+  take_losses(record);
+  take_support(record);
   last_said_ = in_words(*report);
   if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
@@ -188,6 +310,10 @@ std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& r
 std::vector<std::string> RunWatch::warnings() const {
   std::vector<std::string> lines = stability_.warnings();
   if (critical_) lines.push_back("first critical point: " + critical_->words());
+  if (jump_ && critical_)
+    lines.push_back(fmt::format(
+        "between t = {:.4g} and {:.4g} the run jumped to a distant state, past a limit point; path.arc_length follows the path between them",
+        jump_->first.t, jump_->last.t));
   for (const Turning& turning : turnings_) {
     const char* extremum = turning.greatest ? "greatest" : "least";
     lines.push_back(fmt::format("{} has a {} value of {:.6g}{} at t = {:.5g}: a limit point",
@@ -216,18 +342,22 @@ std::vector<Summary> RunWatch::contact_summary() const {
 std::vector<Summary> RunWatch::stability_summary() const {
   if (when_ == StabilityCheck::off) return std::vector<Summary>{};
   std::vector<Summary> all = stability_.summary();
-  // the unit of a word is the word itself (pipeline/plan/run_files.cpp)
   if (critical_) {
     all.push_back({"critical_t", critical_->t, "-"});
     all.push_back({"critical_load_factor", critical_->load_factor, "-"});
-    all.push_back({"critical_kind", NAN, "word " + critical_->kind});
-    all.push_back({"critical_symmetry", NAN, "word " + critical_->symmetry});
     if (critical_->angle) all.push_back({"critical_wave_angle", *critical_->angle, "deg"});
   } else if (!turnings_.empty()) {
     all.push_back({"critical_t", turnings_.front().t, "-"});
-    all.push_back({"critical_kind", NAN, "word limit point of load"});
   }
   return all;
+}
+
+std::vector<TextResult> RunWatch::texts() const {
+  if (when_ == StabilityCheck::off) return {};
+  if (critical_)
+    return {{"critical_kind", critical_->kind}, {"critical_symmetry", critical_->symmetry}};
+  if (!turnings_.empty()) return {{"critical_kind", "limit point of load"}};
+  return {};
 }
 
 }  // namespace langer

@@ -10,9 +10,11 @@
 
 #include "accuracy/checks/contact_watch.hpp"
 #include "accuracy/checks/critical_point.hpp"
+#include "accuracy/checks/free_surface.hpp"
 #include "accuracy/checks/result_watch.hpp"
 #include "accuracy/checks/stability_watch.hpp"
 #include "mechanics/solve/symmetry_breaking.hpp"
+#include "results/store/text_result.hpp"
 #include "scene/run/run.hpp"
 
 namespace langer {
@@ -41,8 +43,8 @@ class RunWatch {
   }  // of the last state's stability; empty where it is stable
 
   // At the end of the path: finds the first critical point that lies on it, if the config asks for
-  // it. The run is left at its end.
-  void locate(const RunEnd& end);
+  // it. The run is left at its end. only_contact: nothing else restrains the body in some direction
+  void locate(const RunEnd& end, bool only_contact = false);
   const std::optional<CriticalPoint>& critical() const { return critical_; }
   void know(CriticalPoint point) { critical_ = std::move(point); }  // where the path leaves another
 
@@ -52,6 +54,7 @@ class RunWatch {
   std::vector<std::string> contact_warnings() const;
   std::vector<Summary> contact_summary() const;
   std::vector<Summary> stability_summary() const;
+  std::vector<TextResult> texts() const;  // of stability: kind and symmetry of the critical point
 
  private:
   // nothing where the mesh does not balance
@@ -59,9 +62,15 @@ class RunWatch {
   std::optional<StabilityReport> report_of_point(const StepRecord& record);
   bool breaking_at(bool at_end) const;
   bool follows_states() const;
-  void take_state(StateOnPath state);
+  void take_state(StateOnPath state, bool doubtful);
+  void take_jump(const StateOnPath& state, bool doubtful);
   void take_turning(const StepRecord& record);
   bool kink_between(double from, double to) const;
+  void take_losses(const StepRecord& record);
+  void take_surface(const StepRecord& record, const BodyState& state);
+  void take_support(const StepRecord& record);
+  void locate_bifurcation(const RunEnd& end);
+  std::optional<CriticalPoint> support_lost(const RunEnd& end) const;
 
   Run& run_;
   StabilityCheck when_;
@@ -81,6 +90,8 @@ class RunWatch {
     StateOnPath before, first, last;
   };
   std::optional<Crossing> crossing_;
+  std::optional<Crossing> jump_;  // three states, of which the last is far from the others
+  int n_indefinite_ = 0;          // tangents of iterations up to the last state
   std::optional<CriticalPoint> critical_;
   // A load that is a result has an extremum: a limit point of it.
   struct Turning {
@@ -93,6 +104,16 @@ class RunWatch {
     double t = 0, value = 0;
   };
   std::map<std::string, std::vector<Sample>> samples_;  // the last two, by name
+
+  // The first steps in which something is lost, known to an increment: strong ellipticity in a
+  // point, the surface condition at a free face, stability.
+  std::optional<CriticalPoint> material_lost_, surface_lost_, stability_lost_;
+  std::optional<FreeSurface> surface_;
+  double t_looked_ = 0;  // of the step before
+  std::optional<Sample> stiffness_before_, margin_before_;
+  static void move_to_root(CriticalPoint& point, const std::optional<Sample>& before,
+                           const Sample& now);
+  std::vector<Sample> support_;  // sum of all contact reactions in the last two steps [N]
 };
 
 }  // namespace langer

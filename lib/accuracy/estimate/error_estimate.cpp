@@ -206,11 +206,16 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
   for (const char* begins : {"travel_", "force_", "force", "reaction_"})
     if (found.empty()) take(begins);
   take("torque_");
+  std::copy_if(all.begin(), all.end(), std::back_inserter(found), [](const Item& item) {
+    return quantity(item).name == "pull_off" && quantity(item).value > 0;
+  });
   if (found.empty()) take("displacement_");
   return found;
 }
 
 }  // namespace
+
+bool Valued::of_contact() const { return of_force() || of_travel(); }
 
 double shear_at_edge(const SolveConfig& config, double touching) {
   constexpr double all_stick = 0.2;  // friction from which on that is so
@@ -243,6 +248,17 @@ std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estim
   return forces_among(estimates);
 }
 
+namespace {
+
+// What the whole path decides, as the greatest pull, is not known from its last state.
+std::vector<Valued> on_path(std::vector<Valued> found, const std::vector<StepForces>& path) {
+  for (Valued& q : found)
+    if (q.name == "pull_off" && !path.empty()) q.value = path.back().of.at(q.name);
+  return found;
+}
+
+}  // namespace
+
 SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
                        const Find& where, const std::function<RunListener(const Run&)>& listener) {
   SolvedPath solved;
@@ -263,7 +279,7 @@ SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>&
                           end.path.t, end.path.why),
               "",
               ""});
-  solved.found = valued(config, run.scene, run.mesh, end.last);
+  solved.found = on_path(valued(config, run.scene, run.mesh, end.last), solved.path);
   solved.seconds = cpu_seconds() - begun;
   return solved;
 }
@@ -279,7 +295,9 @@ std::vector<Valued> valued_forces(const StepForces& forces) {
   for (const auto& [name, size] : forces.of) {
     const char* unit = unit::N;
     if (name.starts_with("torque_")) unit = "N mm";
-    if (name.starts_with("travel_")) unit = unit::mm;
+    if (name.starts_with("travel_") || name.starts_with("displacement_") || name == "apex_height")
+      unit = unit::mm;
+    if (name == "von_mises_max") unit = unit::MPa;
     found.push_back({name, unit, size});
   }
   return found;
@@ -288,18 +306,14 @@ std::vector<Valued> valued_forces(const StepForces& forces) {
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
                            const StepRecord& state) {
   std::vector<Valued> found = valued_forces(step_forces(config, scene, mesh, state));
+  const auto known = [&](const std::string& name) {
+    return std::ranges::any_of(found, [&](const Valued& q) { return q.name == name; });
+  };
   // the stress of a viscous body follows from all of its steps, and one is here
-  if (const Body body(mesh, scene.materials, scene.directions, scene.formulation);
-      !body.viscous()) {
-    const GaussValues gauss = gauss_values(body, state.u);
-    double most = 0;
-    for (int n = 0; n < mesh.n_nodes(); ++n)
-      most =
-          std::max(most, von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average))));
-    found.push_back({"von_mises_max", "MPa", most});
-  }
+  if (!has_viscous_law(scene) && !known("von_mises_max"))
+    found.push_back({"von_mises_max", "MPa", largest_von_mises(scene, mesh, state.u)});
   for (const auto& [name, nodes] : mesh.node_sets)
-    if (nodes.size() == 1)
+    if (nodes.size() == 1 && !known("displacement_" + name))
       found.push_back(
           {"displacement_" + name, "mm", state.u[static_cast<std::size_t>(nodes[0])].norm()});
   return found;
@@ -373,10 +387,6 @@ std::vector<double> no_shorter_than_beside(const std::vector<double>& bars,
 
 }  // namespace
 
-namespace {
-
-// Where on the path a quantity is judged: as accuracy.at says; without it at the end, or where it
-// is largest if the path ends below half of that, as after an unloading.
 double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
                  const std::string& name) {
   const std::optional<AccuracyAt> at = config.accuracy ? config.accuracy->at : std::nullopt;
@@ -394,36 +404,47 @@ double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
   return 1;
 }
 
-// Of the steps the one with the largest error in percent, among those that are not nearly without
-// load; `last` where there is none.
-ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps, const ErrorEstimate& last) {
-  constexpr double small = 0.05;  // of the largest value on the path
+ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps) {
+  ErrorEstimate worst = steps.front();
   double largest = 0;
-  for (const ErrorEstimate& e : steps) largest = std::max(largest, std::abs(e.of.value));
-  ErrorEstimate worst = last;
   for (const ErrorEstimate& e : steps) {
-    if (std::abs(e.of.value) < small * largest) continue;
-    const bool larger = std::abs(worst.of.value) < small * largest ||
-                        e.in_percent(e.total()) > worst.in_percent(worst.total());
-    if (larger) worst = e;
+    largest = std::max(largest, std::abs(e.of.value));
+    if (e.total() > worst.total()) worst = e;
   }
+  worst.largest = largest;
   return worst;
 }
 
-Failure not_in_scene(const std::string& asked, const std::vector<Valued>& found,
-                     const Find& where) {
-  std::string known;
-  for (const Valued& q : found) {
-    if (q.name == "von_mises_max") continue;
-    append(known, ", ", q.name);
-  }
-  return Failure(
-      Exit::config,
-      Error{where("accuracy.of"), "accuracy.of", "found \"" + asked + "\"",
-            known.empty() ? "a quantity of this scene; it has none" : "one of " + known, ""});
+namespace {
+
+bool is_asked(const SolveConfig& config, const std::string& name) {
+  if (!config.accuracy) return false;
+  const std::optional<std::string> asked = config.accuracy->quantity();
+  return asked && (name == *asked || name.starts_with(*asked + "_"));
 }
 
 }  // namespace
+
+void mark_asked(const SolveConfig& config, const Find& where, const std::vector<Valued>& found,
+                std::vector<ErrorEstimate>& estimates) {
+  if (!config.accuracy || !config.accuracy->of) return;
+  bool any = false;
+  for (ErrorEstimate& e : estimates) {
+    e.asked = is_asked(config, e.of.name);
+    any = any || e.asked;
+  }
+  if (any) return;
+  std::string known;
+  std::string hint;
+  for (const ErrorEstimate& e : estimates) append(known, ", ", e.of.name);
+  for (const Valued& q : found)
+    if (is_asked(config, q.name)) hint = over_an_edge(config, q.name);
+  if (hint.empty() && config.accuracy->of == "pull_off") hint = "contacts.<name>.adhesion pulls";
+  throw Failure(
+      Exit::config,
+      Error{where("accuracy.of"), "accuracy.of", "found \"" + *config.accuracy->of + "\"",
+            known.empty() ? "a quantity of this scene; it has none" : "one of " + known, hint});
+}
 
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
                           const Find& where, const SolvedPath& itself, double residual,
@@ -467,13 +488,12 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     }
     const double touching =
         touching_at(all.meshes_for(q).of.front().path, q.of_force() ? q.name : "force", t);
-    const bool of_contact = q.of_force() || q.of_travel();
     if (q.name == "von_mises_max")
       e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) *
                                           std::abs(q.value));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
-    if (of_contact) {
+    if (q.of_contact()) {
       e.scatter = std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
                             0.5 * beside_hole * std::abs(q.value)});
@@ -487,18 +507,17 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const std::vector<SolvedPath>& meshes = all.any().of;
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
-  const std::optional<std::string> asked = config.accuracy ? config.accuracy->of : std::nullopt;
-  for (const Valued& q : itself.found) {
+  for (const Valued& q : on_path(itself.found, itself.path)) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));
       continue;
     }
-    constexpr double no_stress = 1e-10;  // [MPa], as after an unloading
-    if (q.name == "von_mises_max" && q.value < no_stress) continue;
     const Family& meshes_of_q = all.meshes_for(q);
-    const bool on_path = q.of_force() || q.of_travel();
+    const bool has_path = !itself.path.empty() && itself.path.back().of.contains(q.name);
     double t = 1;
-    if (on_path) t = judged_at(config, itself.path, q.name);
+    if (has_path) t = judged_at(config, itself.path, q.name);
+    constexpr double no_stress = 1e-10;  // [MPa], as after an unloading
+    if (q.name == "von_mises_max" && q.value < no_stress && !has_path) continue;
     std::optional<ErrorEstimate> estimate;
     if (t == 1) {
       estimate = judged(q, 1, meshes_of_q.ends(q.name), increments.ends(q.name));
@@ -507,9 +526,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       estimate = judged(there, t, meshes_of_q.forces(q.name, t), increments.forces(q.name, t));
     }
     if (!estimate) continue;
-    estimate->asked = asked && (q.name == *asked || q.name.starts_with(*asked + "_"));
-    if (q.of_force()) estimate->left_out = all.left_out(q);
-    if (on_path) {
+    if (has_path) {
       std::vector<ErrorEstimate> steps;
       for (const StepForces& step : itself.path) {
         const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
@@ -517,17 +534,17 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                                 increments.forces(q.name, step.t)));
       }
       if (config.accuracy && config.accuracy->at == AccuracyAt::every_step)
-        estimate = worst_of(steps, *estimate);
-      if (q.of_force()) {
+        estimate = worst_of(steps);
+      if (!q.of_travel()) {
         for (const ErrorEstimate& e : steps) out.along[q.name].push_back(e.total());
-        if (!itself.path.empty())
-          out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
+        out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
       }
     }
+    if (q.name == "pull_off") estimate->increments -= pull_between_steps(itself.path);
+    if (q.of_force()) estimate->left_out = all.left_out(q);
     out.at_end.push_back(*estimate);
   }
-  if (asked && std::ranges::none_of(out.at_end, [](const auto& e) { return e.asked; }))
-    throw not_in_scene(*asked, itself.found, where);
+  mark_asked(config, where, itself.found, out.at_end);
   const bool same_cells_are_solved = !all.same_cells.of.empty();
   out.growth = same_cells_are_solved ? all.same_cells.growth() : all.family.growth();
   return out;
@@ -555,13 +572,15 @@ std::string in_words(const ErrorEstimate& e) {
                        e.of.name, e.of.value, e.of.unit);
   std::string at;
   if (e.t < 1) at = fmt::format(" at t = {:.4g}", e.t);
+  std::string relative;
+  if (e.largest) relative = fmt::format(" of the largest, {:.4g} {}", *e.largest, e.of.unit);
   if (e.none_yet())
     return fmt::format("{} 0 {}: {}", e.of.name, e.of.unit,
                        e.of.name.starts_with("force") ? "nothing is touched" : "no error");
-  if (e.of.value == 0)
+  if (e.of.value == 0 && !e.largest)
     return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
-  const std::string begins = fmt::format("{}{} {:.4g} {} +- {:.2g} %", e.of.name, at, e.of.value,
-                                         e.of.unit, e.in_percent(e.total()));
+  const std::string begins = fmt::format("{}{} {:.4g} {} +- {:.2g} %{}", e.of.name, at, e.of.value,
+                                         e.of.unit, e.in_percent(e.total()), relative);
   const double cells = e.in_percent(e.cells);
   const double solver = e.in_percent(e.solver);
   if (!e.has_limit) {

@@ -50,6 +50,7 @@ struct Valued {
   double value = 0;
   bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
   bool of_travel() const { return name.starts_with("travel_"); }
+  bool of_contact() const;  // what single nodes in contact change
 };
 std::vector<Valued> valued_forces(const StepForces& forces);
 // of a state of the whole body: force on the indenter (of several the sum, and force_<name> of
@@ -84,6 +85,9 @@ struct ErrorEstimate {
   // shorter cells find more. No bar is given then.
   bool grows = false;
   bool asked = false;  // by accuracy.of
+  // What percentages relate to where that is not the value itself: of the worst of all steps
+  // (accuracy.at: every_step) the largest value on the path.
+  std::optional<double> largest = {};
   // Three meshes show an order by themselves that is smaller than the theoretical one. Such an
   // order is known less well than one that both agree on: Roache's factor is 1.25 for these.
   bool order_observed = false;
@@ -107,8 +111,8 @@ struct ErrorEstimate {
   }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
   double in_percent(double part) const {
-    return 100 * part / std::max(std::abs(of.value), 1e-300);
-  }  // of the value
+    return 100 * part / std::max(std::abs(largest.value_or(of.value)), 1e-300);
+  }  // of the value, or of `largest`
 };
 
 double order_of_force(const SolveConfig& config);  // p of its error
@@ -125,6 +129,18 @@ double shear_at_edge(const SolveConfig& config, double touching);
 // displacements of its named points.
 std::vector<Valued> forces_judged(const std::vector<Valued>& found);
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates);
+
+// Where on the path a quantity is judged: as accuracy.at says; without it at the end, or where it
+// is largest if the path ends below half of that, as after an unloading.
+double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
+                 const std::string& name);
+// For accuracy.at: every_step: of the steps the one with the largest error; its percentages relate
+// to the largest value of all of them.
+ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps);
+// Marks the estimates of what accuracy.of names. Throws Failure(config) where none is of it; found:
+// what the scene has.
+void mark_asked(const SolveConfig& config, const std::function<Place(const std::string&)>& where,
+                const std::vector<Valued>& found, std::vector<ErrorEstimate>& estimates);
 
 // The residual of a state, relative to the forces that it balances; 0 where there are none but
 // rounding.

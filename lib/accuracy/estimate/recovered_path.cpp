@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "accuracy/estimate/cell_parts.hpp"
 
@@ -130,7 +131,7 @@ bool RecoveredPath::unloaded() const {
 }
 
 void RecoveredPath::look_at(const StepRecord& whole) {
-  path_.push_back(step_forces(config_, run_.scene, run_.mesh, whole));
+  append_step(path_, step_forces(config_, run_.scene, run_.mesh, whole));
   residuals_.push_back(relative_residual(whole));
   if (is_homogeneous(run_) || at_end_of_path(whole.t) || unloaded()) return;
   if (shares_.empty() || whole.t >= shares_.back().first + between_looks)
@@ -169,14 +170,31 @@ PathErrors RecoveredPath::errors(const StepRecord& last, const std::vector<Value
   out.at_end = errors;
   auto shares = shares_;
   if (!nothing_left || shares.empty()) shares.emplace_back(last.t, at_end.energy_share());
+  std::map<std::string, std::vector<ErrorEstimate>> steps;
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const StepForces& step = path_[i];
     const RecoveredError error{std::sqrt(share_at(shares, step.t))};
-    for (const ErrorEstimate& e :
-         recovered_errors(config_, error, step, valued_forces(step), residuals_[i]))
+    for (ErrorEstimate e :
+         recovered_errors(config_, error, step, valued_forces(step), residuals_[i])) {
+      if (!e.of.of_force()) continue;  // the spread of stresses is looked at in the last step only
       out.along[e.of.name].push_back(e.total());
+      e.t = step.t;
+      steps[e.of.name].push_back(std::move(e));
+    }
   }
+  for (ErrorEstimate& e : out.at_end)
+    if (steps.contains(e.of.name)) e = judged_step(steps.at(e.of.name), e);
   return out;
+}
+
+// Of a force that is judged before the end of the path the estimate there, else that of the end.
+ErrorEstimate RecoveredPath::judged_step(const std::vector<ErrorEstimate>& steps,
+                                         const ErrorEstimate& last) const {
+  if (config_.accuracy && config_.accuracy->at == AccuracyAt::every_step) return worst_of(steps);
+  const double t = judged_at(config_, path_, last.of.name);
+  for (const ErrorEstimate& e : steps)
+    if (e.t == t && t < 1) return e;
+  return last;
 }
 
 // of the force whose bar is widest, relative to it: those of the stress, and of those that are

@@ -49,6 +49,8 @@ class RecoveredPath {
  private:
   void look_at(const StepRecord& whole);
   bool unloaded() const;
+  ErrorEstimate judged_step(const std::vector<ErrorEstimate>& steps,
+                            const ErrorEstimate& last) const;
   std::vector<double> parts(const RecoveredError& error, const std::vector<ErrorEstimate>& errors,
                             const StepRecord& last) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/checks/progress.hpp"
@@ -42,7 +43,16 @@ void report_costs(const Voice& voice, const PathErrors& found) {
                                   first.of.name, std::pow(2, found.growth / first.order));
   if (first.increments != 0)
     words += fmt::format(", half the increments' part {:.2g} times", std::sqrt(2));
-  voice.say("{}", words);
+  voice.detail("{}", words);
+}
+
+// What a scene is solved for: what `accuracy` judges, forces, torques and travels.
+bool is_main_result(const ErrorEstimate& e) {
+  return e.asked || e.of.of_force() || e.of.of_travel();
+}
+
+bool has_estimate(const std::vector<ErrorEstimate>& estimates, const std::string& name) {
+  return std::ranges::any_of(estimates, [&](const ErrorEstimate& e) { return e.of.name == name; });
 }
 
 }  // namespace
@@ -58,7 +68,7 @@ EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
   std::string why = "the cells follow from no numbers of this config";
   if (has_numbers(config)) why = "other meshes would take more than a third of the solve";
   if (cheap == EstimateBy::recovery)
-    voice.say("errors are estimated by recovery: {}", why);
+    voice.detail("errors are estimated by recovery: {}", why);
   else
     voice.say(
         "errors are not estimated: {}, and recovery does not estimate them here; estimate: refinement is for meshes by numbers, "
@@ -85,10 +95,32 @@ PathErrors report_errors(const Voice& voice, const SolveConfig& config,
     if (failure.code() != Exit::not_converged) throw;
     voice.warn(fmt::format("errors are not estimated: {}", failure.what()));
   }
-  for (const ErrorEstimate& e : found.at_end) voice.say("{}", in_words(e));
+  // estimates by refinement are marked where they are made
+  const bool asks = config.accuracy && config.accuracy->of && !by_refinement(config);
+  if (asks && !found.at_end.empty())
+    mark_asked(config, where, valued(config, run.scene, run.mesh, last), found.at_end);
+  for (const ErrorEstimate& e : found.at_end) voice.detail("{}", in_words(e));
   for (const std::string& why : found.not_known) voice.warn(why);
   report_costs(voice, found);
   return found;
+}
+
+void report_results(const Voice& voice, const SolveConfig& config, const Run& run,
+                    const StepRecord& last, const std::vector<ErrorEstimate>& estimates) {
+  bool any = false;
+  for (const ErrorEstimate& e : estimates) {
+    if (!is_main_result(e)) continue;
+    voice.brief(in_words(e));
+    any = true;
+  }
+  // Without an estimate the numbers themselves; no detail has named them before.
+  for (const Valued& one : valued(config, run.scene, run.mesh, last)) {
+    if (!one.of_force() || has_estimate(estimates, one.name)) continue;
+    voice.say("{} {:.5g} {}, no error bar", one.name, one.value, one.unit);
+    any = true;
+  }
+  if (any) return;
+  for (const ErrorEstimate& e : estimates) voice.brief(in_words(e));
 }
 
 std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,

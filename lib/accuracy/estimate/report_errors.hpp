@@ -18,13 +18,18 @@ namespace langer {
 EstimateBy estimate_of(const Voice& voice, const SolveConfig& config,
                        const std::optional<Material>& material, const Run::Where& where, Run& run);
 
-// Estimates and says them, and what half of them would cost; empty where config.estimate says none,
-// or where there is none (a warning: the result itself stands). resolved: contact is, by the cells.
-// Throws Failure with the signal's code where one has come.
+// Estimates and details them, and what half of them would cost; empty where config.estimate says
+// none, or where there is none (a warning: the result itself stands). resolved: contact is, by the
+// cells. Throws Failure with the signal's code where one has come.
 PathErrors report_errors(const Voice& voice, const SolveConfig& config,
                          const std::optional<Material>& material, const Run::Where& where, Run& run,
                          const StepRecord& last, const Recording& recording,
                          const RecoveredPath& recovered, bool resolved);
+
+// The last words of a run: what it was solved for, with its error bar. Forces, torques and travels,
+// or whatever has an estimate where there are none.
+void report_results(const Voice& voice, const SolveConfig& config, const Run& run,
+                    const StepRecord& last, const std::vector<ErrorEstimate>& estimates);
 
 // What a run and its estimate will take, said and as numbers (run/dry_run.hpp).
 std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,

@@ -331,14 +331,14 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config,
       where_(std::move(where)),
       chosen_(choose_accuracy(config_, material, true)) {
   if (!chosen_) return;
-  voice_.say("accuracy: {}", chosen_->words);
+  voice_.detail("accuracy: {}", chosen_->words);
   if (chosen_->cut)
-    voice_.say("accuracy: cells are cut where the error comes from, until it is within that{}",
-               dry ? " (not with --dry-run)" : "");
+    voice_.detail("accuracy: cells are cut where the error comes from, until it is within that{}",
+                  dry ? " (not with --dry-run)" : "");
   begins_ = !chosen_->shown && chosen_->level.in_contact_radii &&
             config_.estimate == EstimateBy::refinement;
   if (begins_)
-    voice_.say(
+    voice_.detail(
         "accuracy: the study has no scene of this kind; the error with these cells decides which ones it needs{}",
         dry ? " (not with --dry-run)" : "");
   if (begins_ && dry) {
@@ -377,7 +377,7 @@ std::string Accuracy::reason_too_expensive(const std::string& level, double cell
   const double left = seconds_left();
   if (std::isinf(left) && cells < worth_a_forecast) return "";
   const LevelCost forecast = cost();
-  voice_.say("accuracy: {}: {}, by the forecast", level, in_words(forecast));
+  voice_.detail("accuracy: {}: {}, by the forecast", level, in_words(forecast));
   const std::string why = limit_exceeded(forecast, left);
   if (why.empty()) return "";
   return fmt::format("a next level, {}, {}", level, why);

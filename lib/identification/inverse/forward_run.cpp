@@ -3,14 +3,28 @@
 #include <fmt/format.h>
 
 #include "core/base/interrupt.hpp"
+#include "core/config/writer.hpp"
 #include "identification/inverse/sensitivity.hpp"
 #include "mechanics/material/path.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "scene/model/config_number.hpp"
+#include "scene/model/scene_parameters.hpp"
 #include "scene/run/body_mesh.hpp"
 
 namespace langer {
 
 namespace {
+
+// materials.fat.matrix.yeoh.a1 is short for materials.fat.material.matrix.yeoh.a1
+std::string in_full(const std::string& path) {
+  constexpr std::string_view begin = "materials.";
+  if (!path.starts_with(begin)) return path;
+  const std::size_t end = path.find('.', begin.size());
+  if (end == std::string::npos) return path;
+  const std::string rest = path.substr(end + 1);
+  if (rest.starts_with("material.") || rest.starts_with("fibre_")) return path;
+  return path.substr(0, end) + ".material." + rest;
+}
 
 // A run of a fit needs the path alone: error estimates, stability checks and reductions are
 // switched off.
@@ -76,12 +90,15 @@ void add_stops(SolveConfig& config, const std::vector<double>& stops) {
   }
 }
 
-// Whether a key names the friction of a contact that this scene does not have.
-bool is_friction_of_another(const std::string& key, const SolveConfig& config) {
-  return key.starts_with("contacts.") &&
-         std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
-           return key == "contacts." + contact.first + ".friction";
-         });
+// Whether a key names a number of a scene that this one does not have.
+bool is_of_another(const std::string& key, const SolveConfig& config) {
+  if (key.starts_with("contacts.") && key.ends_with(".friction"))
+    return std::none_of(config.contacts.begin(), config.contacts.end(), [&](const auto& contact) {
+      return key == "contacts." + contact.first + ".friction";
+    });
+  for (const char* begin : {"contacts.", "mesh.", "materials."})
+    if (key.starts_with(begin)) return !config_number(config, in_full(key));
+  return false;
 }
 
 // A matrix from rows that were collected during a run.
@@ -108,7 +125,15 @@ void ForwardRun::observe(std::vector<Observation> observations, std::vector<doub
 
 SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
   SolveConfig config = config_;
-  config.material = turned(input.law, fibre_angle_);
+  // before increments are added: paths mean the histories of the config
+  for (const auto& [path, value] : input.numbers)
+    if (!names_thickness(path, config)) config = with_config_number(config, in_full(path), value);
+  const double angle = fibre_angle_ + input.fibre_angle;
+  config.material = turned(input.law, angle);
+  // families keep their angles to the first, whose angle the formula gives
+  if (config.fibre_field && angle != 0)
+    if (auto* formula = std::get_if<FormulaField>(&*config.fibre_field))
+      formula->alpha = fmt::format("({}) + ({})", formula->alpha, number_text(angle));
   if (!config.path.seconds) add_stops(config, stops_);
   for (const auto& [name, mu] : input.friction)
     if (const auto contact = config.contacts.find(name); contact != config.contacts.end())
@@ -116,16 +141,111 @@ SolveConfig ForwardRun::config_at(const ForwardInput& input) const {
   return config;
 }
 
+// The mesh of the config where layers have other thicknesses. Other numbers of its geometry mesh it
+// anew, with as many cells.
+Mesh ForwardRun::mesh_at(const ForwardInput& input, const SolveConfig& config) const {
+  // A mesh that is made anew has to have the same cells: observations and fields of the scene are
+  // those of its nodes, and a fit needs answers that change smoothly.
+  Mesh mesh = *mesh_;
+  for (const auto& [path, value] : input.numbers) {
+    if (names_thickness(path, config)) continue;
+    if (path.starts_with("mesh.") || path.starts_with("bodies"))
+      mesh = body_mesh(config, "", where_);
+  }
+  if (mesh.connectivity != mesh_->connectivity)
+    throw Failure(Exit::config, Error{{},
+                                      "mesh",
+                                      "a mesh of other cells at these numbers",
+                                      "numbers that only move its nodes",
+                                      ""});
+  for (const auto& [path, value] : input.numbers) {
+    if (!names_thickness(path, config)) continue;
+    std::string why;
+    const auto layer = layer_thickness(path, config, mesh, why);
+    if (!(value > 0) || !layer)
+      throw Failure(Exit::config, Error{{}, path, "found " + number_text(value), "above 0", why});
+    mesh = layer->with(std::move(mesh), value);
+  }
+  return mesh;
+}
+
+// A thickness is measured at the mesh, whose layers may have been given by other numbers.
+std::optional<double> ForwardRun::number(const std::string& path) const {
+  if (!names_thickness(path, config_)) return config_number(config_, in_full(path));
+  std::string why;
+  const auto layer = layer_thickness(path, config_, *mesh_, why);
+  if (!layer) return std::nullopt;
+  return layer->value();
+}
+
+// Every number can be another one but those that decide how many cells there are: observations are
+// made at nodes, so these have to stay.
+std::string ForwardRun::reason_fixed(const std::string& path) const {
+  if (names_thickness(path, config_)) {
+    std::string why;
+    if (layer_thickness(path, config_, *mesh_, why)) return "";
+    return why;
+  }
+  if (!config_number(config_, in_full(path))) return "the scene has no such number";
+  if (!path.starts_with("mesh.") && !path.starts_with("bodies")) return "";
+  // a mesh that `accuracy` chose has cells that its numbers do not say
+  const double value = *config_number(config_, path);
+  const Mesh again = body_mesh(with_config_number(config_, path, value), "", where_);
+  if (again.connectivity == mesh_->connectivity) return "";
+  return "the cells of the mesh follow from other numbers as well";
+}
+
+// Numbers that a laboratory measures or assumes, and that change every force: how rough the
+// indenter is, how large, and how thick the layers are.
+std::vector<std::string> ForwardRun::uncertain_numbers() const {
+  std::vector<std::string> paths;
+  for (const auto& [name, contact] : config_.contacts) {
+    if (contact.deformable()) continue;
+    paths.push_back("contacts." + name + ".friction");
+    for (const char* shape : {"sphere", "cylinder"})
+      paths.push_back("contacts." + name + ".rigid." + shape + ".radius");
+  }
+  if (config_.mesh) {
+    for (std::size_t i = 0; i < config_.mesh->bodies.size(); ++i)
+      paths.push_back(fmt::format("mesh.bodies[{}].thickness", i));
+    for (const char* kind : {"block", "graded_block", "indented_block", "section", "indented_disc"})
+      paths.push_back(fmt::format("mesh.geometry.{}.size[1]", kind));
+  }
+  // what this scene does not have: another shape, or a body with layers
+  std::erase_if(paths, [&](const std::string& path) {
+    return !config_number(config_, path) || !number(path);
+  });
+  return paths;
+}
+
+// Asks the scene itself, which refuses what it cannot be differentiated by: a viscous body, a shape
+// from a file, loads on the sides of a layer.
+bool ForwardRun::differentiates(const std::string& path, const Material& law) const {
+  if (!number(path)) return true;  // it has no part in this scene
+  SolveConfig config = config_;
+  config.material = law;
+  config.sensitivity = {path};
+  if (!config.bodies.empty() || config.dynamics) return false;
+  try {
+    const Scene scene = make_scene(config, *mesh_, config.material, where_);
+    if (!scene.surfaces.empty()) return false;
+    const SceneParameters parameters(config, *mesh_, scene, where_);
+    return true;
+  } catch (const Failure&) {
+    return false;
+  }
+}
+
 ForwardPath ForwardRun::solve(const ForwardInput& input) const {
   // Ask for the sensitivity by each number that this scene has. The others stay zero.
   SolveConfig config = config_at(input);
   std::vector<std::size_t> asked;  // those that this scene has
   for (std::size_t k = 0; k < input.slopes.size(); ++k)
-    if (!is_friction_of_another(input.slopes[k], config)) {
+    if (!is_of_another(input.slopes[k], config)) {
       asked.push_back(k);
       config.sensitivity.push_back(input.slopes[k]);
     }
-  Run run(*mesh_, config, config.material, where_);
+  Run run(mesh_at(input, config), config, config.material, where_);
   std::optional<Sensitivity> sensitivity;
   if (!asked.empty()) sensitivity.emplace(run, config, where_);
   std::vector<std::vector<double>> rows;

@@ -31,6 +31,8 @@ struct ForwardInput {
   Material law;
   std::map<std::string, double> friction = {};
   std::vector<std::string> slopes = {};  // keys of the config by which it is to be differentiated
+  std::map<std::string, double> numbers = {};  // of the config, by path; of those that it has
+  double fibre_angle = 0;                      // added to that of the run [deg]
 };
 
 class ForwardRun {
@@ -43,6 +45,14 @@ class ForwardRun {
   const Mesh& mesh() const { return *mesh_; }
   const SolveConfig& config() const { return config_; }
   SolveConfig config_at(const ForwardInput& input) const;
+  // Value of a number of the config; of a thickness that of the mesh. Nothing where it has none.
+  std::optional<double> number(const std::string& path) const;
+  // Why a number of the config cannot be found; empty: it can.
+  std::string reason_fixed(const std::string& path) const;
+  // Whether a run differentiates itself with respect to a number of its config that is no friction.
+  bool differentiates(const std::string& path, const Material& law) const;
+  // What a fit may have to find beside the law: friction, radii and thicknesses of the scene.
+  std::vector<std::string> uncertain_numbers() const;
   void observe(std::vector<Observation> observations, std::vector<double> stops);
   const std::vector<Observation>& observations() const { return observations_; }
 
@@ -55,6 +65,8 @@ class ForwardRun {
   std::optional<SolveConfig> on_longer_cells(double factor) const;
 
  private:
+  Mesh mesh_at(const ForwardInput& input, const SolveConfig& config) const;
+
   SolveConfig config_;
   Where where_;
   double fibre_angle_;

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/statistics/study.hpp"
 #include "results/store/curves_file.hpp"
 
 namespace langer {
@@ -33,7 +36,7 @@ std::function<void(const std::string&)> throttled(const Voice& voice, const std:
   return [voice, level, last = wall_seconds()](const std::string& line) mutable {
     if (wall_seconds() - last < 2) return;
     last = wall_seconds();
-    voice.say("{}{}", level, line);
+    voice.progress(level + line);
   };
 }
 
@@ -49,6 +52,7 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
       cache_(std::make_shared<RunCache>(journal)) {
   if (cache_->read_back() > 0)
     voice_.say("continues with {} cached runs of an earlier fit", cache_->read_back());
+  complete_scene_numbers(config, where, problem);
   scenes_ = std::make_shared<SceneTests>(
       config, where, problem, files, cache_,
       SceneFitOptions{config.jobs, quotients || is_viscous(config.law), throttled(voice, "")});
@@ -163,6 +167,67 @@ std::vector<std::string> InverseFit::add_curves(const FitResult& fit, FitRecord&
   lines.push_back("without the discretisation error the parameters would change by about: " +
                   words);
   return lines;
+}
+
+// How much wider the interval of each parameter would be if a held number were one more parameter:
+// with C the covariance, c the weighted slope by the number and b = C J^T c,
+//   variance grows by  b_j^2 / (c.c - (J^T c).b)
+std::vector<InverseFit::Widening> InverseFit::widenings(const FitResult& fit) {
+  constexpr double worth_naming = 1.5;
+  std::vector<Widening> all;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < fit.best.p.size(); ++i)
+    if (!fit.left_out[static_cast<std::size_t>(i)]) free.push_back(i);
+  if (free.empty()) return all;
+  // Parameters on a bound or at an angle of symmetry have no standard error that could grow.
+  const MatX J = fit.best.J(Eigen::all, free);
+  const MatX H = J.transpose() * J;
+  const MatX C = LeastNorm(H).solve_columns(MatX::Identity(H.rows(), H.cols()));
+  const std::vector<std::string> names = parameter_names(problem_);
+  for (HeldNumber& held : scenes_->held_numbers(fit.best.p)) {
+    // Values of scenes stand behind those of homogeneous tests and before those of priors.
+    VecX c = VecX::Zero(J.rows());
+    c.segment(J.rows() - fit.further.size(), held.slope.size()) =
+        scenes_->weight().cwiseProduct(held.slope);
+    const double whole = c.squaredNorm();
+    if (!(whole > 0)) continue;
+    const VecX seen = J.transpose() * c;
+    const VecX b = C * seen;
+    const double left = whole - seen.dot(b);
+    // what of the slope no combination of parameters can repeat decides how much wider they become
+    Widening widest;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const auto j = static_cast<Eigen::Index>(k);
+      double factor = std::numeric_limits<double>::infinity();
+      if (left > 1e-8 * whole) factor = std::sqrt(1 + b[j] * b[j] / (left * C(j, j)));
+      // of a number that cannot be told from parameters the one that would follow it most
+      const bool more = factor > widest.factor;
+      const bool follows = !std::isfinite(factor) && b[j] * b[j] > 1e-6 * C(j, j) * whole;
+      if (more && (std::isfinite(factor) || follows)) {
+        widest.factor = factor;
+        widest.parameter = names[static_cast<std::size_t>(free[k])];
+      }
+    }
+    // what changes little of the errors is not worth a line
+    if (widest.factor < worth_naming) continue;
+    widest.held = std::move(held);
+    all.push_back(std::move(widest));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Widening& a, const Widening& b) { return a.factor > b.factor; });
+  return all;
+}
+
+std::string in_words(const InverseFit::Widening& widening) {
+  std::string unit;
+  if (widening.held.unit != unit::none) unit = " " + widening.held.unit;
+  const std::string begin =
+      fmt::format("{} is fixed at {:.4g}{}; ", widening.held.name, widening.held.value, unit);
+  if (!std::isfinite(widening.factor))
+    return begin + fmt::format("the tests do not separate it from {}: an error in it is one in {}",
+                               widening.parameter, widening.parameter);
+  return begin + fmt::format("freeing it widens {} by a factor {:.2g}", widening.parameter,
+                             widening.factor);
 }
 
 std::vector<std::string> InverseFit::cost() const {

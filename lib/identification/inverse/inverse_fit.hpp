@@ -38,7 +38,15 @@ class InverseFit {
   // parameters, in words
   std::vector<std::string> add_curves(const FitResult& fit, FitRecord& record);
   std::vector<FittedCurve> curves(const FitResult& fit) const;  // with their errors
-  std::vector<std::string> cost() const;                        // of what was solved, in words
+  // What the scenes hold fixed and would widen an interval by half or more, the most first. Without
+  // runs where there is nothing to hold.
+  struct Widening {
+    HeldNumber held;
+    std::string parameter;
+    double factor = 1;  // of the standard error, if the number were a parameter; infinite: unknown
+  };
+  std::vector<Widening> widenings(const FitResult& fit);
+  std::vector<std::string> cost() const;  // of what was solved, in words
   int runs() const {
     if (!draft_) return scenes_->runs();
     return scenes_->runs() + draft_->runs();
@@ -57,6 +65,8 @@ class InverseFit {
   std::optional<FitResult> reached_;
   std::vector<Prior> priors_;
 };
+
+std::string in_words(const InverseFit::Widening& widening);
 
 // parameter,true,found,standard_error,lower_95,upper_95; empty cells where there is nothing
 std::string parameters_csv(const FitRecord& record);

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "core/base/in_order.hpp"
 #include "core/base/stopwatch.hpp"
 #include "results/store/identity.hpp"
+#include "scene/model/config_number.hpp"
 #include "scene/model/solve_config_io.hpp"
 
 namespace langer {
@@ -18,17 +21,24 @@ namespace {
 std::string key_of(const ForwardRun& run, const ForwardInput& input, const std::string& looks) {
   std::string text = to_yaml(run.config_at(input)) + looks;
   for (const std::string& key : input.slopes) text += key + "\n";
+  // a thickness moves the mesh, of which the config says nothing
+  for (const auto& [path, value] : input.numbers) text += fmt::format("{} {}\n", path, value);
   return fnv1a(text);
 }
 
 }  // namespace
 
 // Material, friction and requested derivatives at the parameters p.
-ForwardInput SceneTests::input_at(const VecX& p) const {
+ForwardInput SceneTests::input_at(const VecX& p, std::size_t scene) const {
   ForwardInput input{with_parameters(law_, p), {}, {}};
-  for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (!numbers_[i].contact.empty())
-      input.friction[numbers_[i].contact] = p[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const double value = p[static_cast<Eigen::Index>(i)];
+    const std::string& path = numbers_[i].path;
+    if (!numbers_[i].contact.empty()) input.friction[numbers_[i].contact] = value;
+    if (!path.empty() && forward_[scene]->number(path)) input.numbers[path] = value;
+  }
+  if (const auto angle = angle_of_.find(scene); angle != angle_of_.end())
+    input.fibre_angle = p[static_cast<Eigen::Index>(angle->second)];
   if (!options_.quotients) input.slopes = slopes_;
   return input;
 }
@@ -73,9 +83,9 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
 
 // The runs of all scenes at p. Returns false, and keeps the reason, if one does not reach its end.
 bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
-  const ForwardInput input = input_at(p);
   std::vector<Wanted> wanted;
-  for (std::size_t scene = 0; scene < forward_.size(); ++scene) wanted.push_back({scene, input});
+  for (std::size_t scene = 0; scene < forward_.size(); ++scene)
+    wanted.push_back({scene, input_at(p, scene)});
   paths = solved(wanted);
   for (const Path& path : paths)
     if (!path->complete) {
@@ -171,9 +181,9 @@ bool SceneTests::slope(const VecX& p, MatX& J) {
   J = MatX::Zero(measured_.size(), p.size());
   bool exists = false;
   if (options_.quotients) {
-    exists = add_difference_quotients(p, paths, J);
+    exists = add_difference_quotients(p, paths, true, J);
   } else {
-    exists = add_path_sensitivities(p, paths, J);
+    exists = add_path_sensitivities(p, paths, J) && add_difference_quotients(p, paths, false, J);
   }
   if (!exists) return false;
   add_instrument_columns(p, paths, J);
@@ -189,8 +199,10 @@ bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& 
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
       VecX column;
       if (!read(tests_[i], path, path.slopes[k], p, Read::values, column)) return false;
-      for (const auto& [number, factor] : slope_of_[k])
-        J.block(first_[i], static_cast<Eigen::Index>(number), column.size(), 1) += factor * column;
+      for (const SlopeOf& of : slope_of_[k])
+        if (!of.scene || *of.scene == tests_[i].run)
+          J.block(first_[i], static_cast<Eigen::Index>(of.number), column.size(), 1) +=
+              of.factor * column;
     }
   }
   return true;
@@ -198,11 +210,12 @@ bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& 
 
 // Columns from forward differences: one more run of each scene for each number. The step goes to
 // the other side if it would leave the box.
-bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J) {
+bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>& paths, bool all,
+                                          MatX& J) {
   std::vector<Wanted> wanted;
   std::vector<std::pair<std::size_t, double>> steps;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (numbers_[i].measured) continue;
+    if (numbers_[i].measured || !(all || numbers_[i].quotient)) continue;
     const FreeParameter& free = law_.free[i];
     const auto k = static_cast<Eigen::Index>(i);
     double width = free.upper - free.lower;
@@ -215,9 +228,12 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
     VecX moved = p;
     moved[k] += h;
     steps.push_back({i, moved[k] - p[k]});
-    for (std::size_t scene = 0; scene < forward_.size(); ++scene)
-      wanted.push_back({scene, input_at(moved)});
+    for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
+      wanted.push_back({scene, input_at(moved, scene)});
+      if (!all) wanted.back().input.slopes.clear();
+    }
   }
+  if (wanted.empty()) return true;
   const std::vector<Path> moved = solved(wanted);
   for (std::size_t step = 0; step < steps.size(); ++step)
     for (std::size_t i = 0; i < tests_.size(); ++i) {
@@ -242,30 +258,121 @@ void SceneTests::add_instrument_columns(const VecX& p, const std::vector<Path>& 
     for (std::size_t k = 0; k < tests_.size(); ++k) {
       const SceneTest& test = tests_[k];
       if (!numbers_[i].measured || numbers_[i].measured->data != test.data) continue;
-      VecX rate;
-      if (!read(test, *paths[test.run], paths[test.run]->values, p, Read::rate, rate))
-        continue;  // the model is not there either
-      auto column = J.block(first_[k], static_cast<Eigen::Index>(i), rate.size(), 1);
-      const auto rows = static_cast<Eigen::Index>(test.s.size());
-      const double compliance = measured_by(test, SceneNumber::Of::compliance, p);
-      const double force = measured_by(test, SceneNumber::Of::force_offset, p);
-      switch (numbers_[i].measured->of) {
-        case SceneNumber::Of::touch_offset:
-          column = -rate;
-          break;
-        case SceneNumber::Of::force_offset:
-          column = compliance * rate;
-          for (const SceneCurve& curve : test.curves)
-            if (curve.unit == "N") column.middleRows(curve.first, rows).array() += 1;
-          break;
-        default:
-          for (const SceneCurve& curve : test.curves)
-            column.middleRows(curve.first, rows) =
-                -rate.segment(curve.first, rows)
-                     .cwiseProduct(
-                         (test.measured.segment(test.force, rows).array() - force).matrix());
+      VecX column;
+      // where it is not, the model is not there either
+      if (instrument_column(test, numbers_[i].measured->of, p, *paths[test.run], column))
+        J.block(first_[k], static_cast<Eigen::Index>(i), column.size(), 1) = column;
+    }
+}
+
+// What touch offset, force offset or compliance of one test changes of its values.
+bool SceneTests::instrument_column(const SceneTest& test, SceneNumber::Of of, const VecX& p,
+                                   const ForwardPath& path, VecX& column) const {
+  VecX rate;
+  if (!read(test, path, path.values, p, Read::rate, rate)) return false;
+  column = VecX::Zero(rate.size());
+  const auto rows = static_cast<Eigen::Index>(test.s.size());
+  const double compliance = measured_by(test, SceneNumber::Of::compliance, p);
+  const double force = measured_by(test, SceneNumber::Of::force_offset, p);
+  switch (of) {
+    case SceneNumber::Of::touch_offset:
+      column = -rate;
+      break;
+    case SceneNumber::Of::force_offset:
+      column = compliance * rate;
+      for (const SceneCurve& curve : test.curves)
+        if (curve.unit == "N") column.segment(curve.first, rows).array() += 1;
+      break;
+    default:
+      for (const SceneCurve& curve : test.curves)
+        column.segment(curve.first, rows) =
+            -rate.segment(curve.first, rows)
+                 .cwiseProduct((test.measured.segment(test.force, rows).array() - force).matrix());
+  }
+  return true;
+}
+
+// Offsets and compliances of tests of a force over the travel of its indenter.
+void SceneTests::add_held_of_instruments(const VecX& p, const std::vector<Path>& paths,
+                                         std::vector<HeldNumber>& held) const {
+  const auto is_free = [&](const SceneTest& test, SceneNumber::Of of) {
+    return std::any_of(numbers_.begin(), numbers_.end(), [&](const Number& number) {
+      return number.measured && number.measured->data == test.data && number.measured->of == of;
+    });
+  };
+  for (std::size_t k = 0; k < tests_.size(); ++k) {
+    const SceneTest& test = tests_[k];
+    const bool force = std::any_of(test.curves.begin(), test.curves.end(),
+                                   [](const SceneCurve& c) { return c.unit == "N"; });
+    if (!force || test.over.key != "u_ind") continue;
+    for (const auto& [word, unit, of] :
+         {std::tuple("touch_offset", "mm", SceneNumber::Of::touch_offset),
+          std::tuple("force_offset", "N", SceneNumber::Of::force_offset),
+          std::tuple("compliance", "mm/N", SceneNumber::Of::compliance)}) {
+      VecX column;
+      if (is_free(test, of) || !instrument_column(test, of, p, *paths[test.run], column)) continue;
+      HeldNumber one{fmt::format("data[{}].{}", test.data, word), unit, measured_by(test, of, p),
+                     VecX::Zero(measured_.size())};
+      one.slope.segment(first_[k], column.size()) = column;
+      held.push_back(std::move(one));
+    }
+  }
+}
+
+std::vector<HeldNumber> SceneTests::held_numbers(const VecX& p) {
+  std::vector<HeldNumber> held;
+  std::vector<Path> paths;
+  if (options_.quotients || !paths_at(p, paths)) return held;
+  add_held_of_instruments(p, paths, held);
+  constexpr double trial_friction = 0.05;
+  std::map<std::string, std::size_t> known;
+  for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
+    ForwardInput input = input_at(p, scene);
+    input.slopes.clear();
+    std::vector<std::pair<std::string, ForwardInput>> frictionless;
+    for (const std::string& path : forward_[scene]->uncertain_numbers()) {
+      if (std::ranges::find(law_.free, path, &FreeParameter::key) != law_.free.end()) continue;
+      const double value = *forward_[scene]->number(path);
+      if (path.ends_with(".friction") && value == 0) {
+        ForwardInput rough = input;
+        rough.friction[path.substr(9, path.rfind('.') - 9)] = trial_friction;
+        frictionless.emplace_back(path, rough);
+      } else if (forward_[scene]->differentiates(path, input.law)) {
+        input.slopes.push_back(path);
       }
     }
+    std::vector<Wanted> wanted;
+    if (!input.slopes.empty()) wanted.push_back({scene, input});
+    for (const auto& [path, rough] : frictionless) wanted.push_back({scene, rough});
+    const std::vector<Path> runs = solved(wanted);
+    // the values of all tests of this scene, read from a run as those of the fit are
+    const auto add = [&](const std::string& path, const ForwardPath& run, const MatX& of,
+                         double factor, const ForwardPath* less) {
+      const auto [at, is_new] = known.insert({path, held.size()});
+      if (is_new)
+        held.push_back({path, unit_of_config_number(path), *forward_[scene]->number(path),
+                        VecX::Zero(measured_.size())});
+      for (std::size_t k = 0; k < tests_.size(); ++k) {
+        if (tests_[k].run != scene) continue;
+        VecX column, before;
+        if (!read(tests_[k], run, of, p, Read::values, column)) continue;
+        if (less && !read(tests_[k], *less, less->values, p, Read::values, before)) continue;
+        if (less) column -= before;
+        held[at->second].slope.segment(first_[k], column.size()) += factor * column;
+      }
+    };
+    std::size_t next = 0;
+    if (!input.slopes.empty()) {
+      const ForwardPath& run = *runs[next++];
+      for (std::size_t k = 0; run.complete && k < input.slopes.size(); ++k)
+        add(input.slopes[k], run, run.slopes[k], 1, nullptr);
+    }
+    for (const auto& [path, rough] : frictionless) {
+      const ForwardPath& run = *runs[next++];
+      if (run.complete) add(path, run, run.values, 1 / trial_friction, &*paths[scene]);
+    }
+  }
+  return held;
 }
 
 // Sentences about tests that were read beyond the end of a path at the fitted offsets.

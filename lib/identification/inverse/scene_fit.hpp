@@ -13,6 +13,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,11 +27,26 @@
 
 namespace langer {
 
+// A number of a scene or of its instrument that a fit holds fixed, and how what was measured would
+// follow it.
+struct HeldNumber {
+  std::string name, unit;
+  double value = 0;
+  VecX slope;  // of all values of the scenes, per unit
+};
+
 struct SceneFitOptions {
   int jobs = 1;
   bool quotients = false;  // derivatives by differences of whole runs, to compare with
   std::function<void(const std::string&)> say = {};
 };
+
+// Start values and boxes that the config of a fit leaves to its scenes (NaN): those of the scene,
+// half and twice its value, or six standard deviations of a prior. Throws Failure(config) for a
+// number that no scene has.
+void complete_scene_numbers(const FitConfig& config,
+                            const std::function<Place(const std::string&)>& where,
+                            FitProblem& problem);
 
 class SceneTests : public FurtherTests {
  public:
@@ -60,6 +76,9 @@ class SceneTests : public FurtherTests {
   // Sentences about tests that were read beyond the end of a path at the offsets of p.
   std::vector<std::string> extrapolations(const VecX& p) const;
   std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
+  // Friction, radii, thicknesses, offsets and compliances that are no parameters. One run of each
+  // scene more at p, and one more without friction.
+  std::vector<HeldNumber> held_numbers(const VecX& p);
   const std::vector<SceneTest>& tests() const { return tests_; }
   std::size_t scenes() const { return forward_.size(); }
 
@@ -67,14 +86,16 @@ class SceneTests : public FurtherTests {
   struct Number {         // a free parameter as a scene sees it
     std::string contact;  // friction
     std::optional<SceneNumber>
-        measured;  // touch_offset, force_offset, compliance; none of both: of the law
+        measured;           // touch_offset, force_offset, compliance; none of all: of the law
+    std::string path;       // of a number of the config
+    bool quotient = false;  // its column comes from differences of whole runs
   };
   using Path = std::shared_ptr<const ForwardPath>;
   struct Wanted {
     std::size_t scene;
     ForwardInput input;
   };
-  ForwardInput input_at(const VecX& p) const;
+  ForwardInput input_at(const VecX& p, std::size_t scene) const;
   std::vector<Path> solved(const std::vector<Wanted>& wanted);
   bool paths_at(const VecX& p, std::vector<Path>& paths);
   double measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const;
@@ -83,14 +104,24 @@ class SceneTests : public FurtherTests {
   enum class Read { values, rate };
   bool read(const SceneTest& test, const ForwardPath& path, const MatX& of, const VecX& p,
             Read what, VecX& out) const;
-  bool add_difference_quotients(const VecX& p, const std::vector<Path>& paths, MatX& J);
+  // all: of each number; else of those whose column nothing else gives
+  bool add_difference_quotients(const VecX& p, const std::vector<Path>& paths, bool all, MatX& J);
   bool add_path_sensitivities(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
   void add_instrument_columns(const VecX& p, const std::vector<Path>& paths, MatX& J) const;
+  bool instrument_column(const SceneTest& test, SceneNumber::Of of, const VecX& p,
+                         const ForwardPath& path, VecX& column) const;
+  void add_held_of_instruments(const VecX& p, const std::vector<Path>& paths,
+                               std::vector<HeldNumber>& held) const;
   void add_run(std::size_t item, double longer, std::map<std::string, std::size_t>& known);
   void add_numbers();
   void add_tests();
   bool offset_free(std::size_t item) const;  // touch offset, force offset or compliance
-  void add_slope(const std::string& key, std::size_t number, double factor);
+  // scene: of the one whose runs it concerns; all of them without
+  void add_slope(const std::string& key, std::size_t number, double factor,
+                 std::optional<std::size_t> scene = {});
+  void add_config_number(const std::string& path, std::size_t number,
+                         const std::function<void(std::string, std::string)>& refuse);
+  bool free_angle(std::size_t item) const;  // whether data[item].fibre_angle is a parameter
 
   FitConfig config_;
   Where where_;
@@ -105,7 +136,13 @@ class SceneTests : public FurtherTests {
   bool any_longer_ = false, with_friction_ = false;
   std::vector<std::string> slopes_;  // numbers by which runs are differentiated, and what changes
                                      // of them each parameter makes
-  std::vector<std::vector<std::pair<std::size_t, double>>> slope_of_;
+  struct SlopeOf {
+    std::size_t number;
+    double factor;
+    std::optional<std::size_t> scene;
+  };
+  std::vector<std::vector<SlopeOf>> slope_of_;
+  std::map<std::size_t, std::size_t> angle_of_;  // scene: number that is its fibre_angle
   std::vector<SceneTest> tests_;
   std::vector<Eigen::Index> first_;  // of the values of each test
   VecX measured_, weight_;

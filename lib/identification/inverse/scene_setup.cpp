@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -113,9 +114,10 @@ std::shared_ptr<SceneTests> SceneTests::on_longer_cells(double factor) const {
 void SceneTests::add_run(std::size_t item, double longer,
                          std::map<std::string, std::size_t>& known) {
   const FitData& data = config_.data[item];
-  const auto [at, is_new] =
-      known.insert({fmt::format("{}\n{}\n{}", data.solve.path, data.mesh.path, data.fibre_angle),
-                    forward_.size()});
+  std::string scene_name =
+      fmt::format("{}\n{}\n{}", data.solve.path, data.mesh.path, data.fibre_angle);
+  if (free_angle(item)) scene_name += fmt::format("\nof item {}", item);
+  const auto [at, is_new] = known.insert({scene_name, forward_.size()});
   run_of_[item] = at->second;
   if (!is_new) return;
   Loaded<SolveConfig> loaded = scene_config(data, item, where_);
@@ -125,17 +127,19 @@ void SceneTests::add_run(std::size_t item, double longer,
     return number.unit == unit::deg &&
            std::ranges::find(law_.free, number.key, &FreeParameter::key) != law_.free.end();
   };
-  const bool angle_free = std::ranges::any_of(parameters(law), is_free_angle);
+  const bool angle_free = free_angle(item) || std::ranges::any_of(parameters(law), is_free_angle);
   if (!scene.fibre_angles.empty() && (angle_free || data.fibre_angle != 0))
     throw Failure(Exit::config,
                   Error{loaded.where("fibre_angles"), "fibre_angles",
                         "found, and would stand for the angles of the fit's law",
                         "none: the law's own angle, and fibre_angle of the item of data", ""});
   choose_accuracy(scene, law_.law);
-  auto run = std::make_shared<ForwardRun>(scene, loaded.where, data.fibre_angle);
+  // an angle that is a parameter is not the one of the config
+  const double angle = free_angle(item) ? 0 : data.fibre_angle;
+  auto run = std::make_shared<ForwardRun>(scene, loaded.where, angle);
   if (longer != 1)
     if (const auto other = run->on_longer_cells(longer)) {
-      run = std::make_shared<ForwardRun>(*other, loaded.where, data.fibre_angle);
+      run = std::make_shared<ForwardRun>(*other, loaded.where, angle);
       any_longer_ = true;
     }
   double top = 0;
@@ -149,7 +153,10 @@ void SceneTests::add_run(std::size_t item, double longer,
 bool SceneTests::offset_free(std::size_t item) const {
   return std::any_of(law_.free.begin(), law_.free.end(), [&](const FreeParameter& p) {
     const auto number = scene_number(config_, p);
-    return number && number->of != SceneNumber::Of::friction && number->data == item;
+    return number && number->data == item &&
+           (number->of == SceneNumber::Of::touch_offset ||
+            number->of == SceneNumber::Of::force_offset ||
+            number->of == SceneNumber::Of::compliance);
   });
 }
 
@@ -231,6 +238,21 @@ void SceneTests::add_numbers() {
         if (!contacts.count(one.contact))
           refuse("no scene has a contact \"" + one.contact + "\"", expected);
         with_friction_ = true;
+      } else if (number->of == SceneNumber::Of::of_config) {
+        one.path = number->contact;
+        numbers_.push_back(one);
+        add_config_number(one.path, i, refuse);
+        continue;
+      } else if (number->of == SceneNumber::Of::fibre_angle) {
+        const std::size_t run = run_of_[number->data];
+        angle_of_[run] = i;
+        const auto& field = forward_[run]->config().fibre_field;
+        if (field && !std::holds_alternative<FormulaField>(*field))
+          refuse(p.key + " of a scene whose directions are read at points",
+                 "directions by a formula: fibre_field: {formula: {alpha: ...}}");
+        one.quotient = field.has_value();
+        for (std::size_t family = 0; !field && family < law_.law.fibres.size(); ++family)
+          add_slope(fmt::format("fibres[{}].alpha", family), i, 1, run);
       } else {
         one.measured = number;
         const auto test = std::ranges::find(tests_, number->data, &SceneTest::data);
@@ -254,9 +276,114 @@ void SceneTests::add_numbers() {
 
 // Registers a number of the scene by which runs are differentiated, and the parameter that moves
 // it.
-void SceneTests::add_slope(const std::string& key, std::size_t number, double factor) {
+void SceneTests::add_slope(const std::string& key, std::size_t number, double factor,
+                           std::optional<std::size_t> scene) {
+  const auto known = std::ranges::find(slopes_, key);
+  if (known != slopes_.end()) {
+    slope_of_[static_cast<std::size_t>(known - slopes_.begin())].push_back({number, factor, scene});
+    return;
+  }
   slopes_.push_back(key);
-  slope_of_.push_back({{number, factor}});
+  slope_of_.push_back({{number, factor, scene}});
+}
+
+bool SceneTests::free_angle(std::size_t item) const {
+  return std::ranges::any_of(law_.free, [&](const FreeParameter& p) {
+    const auto number = scene_number(config_, p);
+    return number && number->of == SceneNumber::Of::fibre_angle && number->data == item;
+  });
+}
+
+// A number of the config of one scene or more. It is refused where it decides at which travel or
+// displacement a file was measured: then the rows would belong to other states.
+void SceneTests::add_config_number(const std::string& path, std::size_t number,
+                                   const std::function<void(std::string, std::string)>& refuse) {
+  bool any = false;
+  bool differentiated = true;
+  for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
+    const ForwardRun& run = *forward_[scene];
+    if (!run.number(path)) continue;
+    any = true;
+    if (const std::string why = run.reason_fixed(path); !why.empty())
+      refuse(path + ": " + why, "a number that a scene can have otherwise");
+    differentiated = differentiated && run.differentiates(path, law_.law);
+  }
+  if (!any) {
+    std::string why = "no scene has it";
+    for (const auto& run : forward_)
+      if (const std::string reason = run->reason_fixed(path); !reason.empty()) why = reason;
+    refuse(path + ": " + why,
+           "a number of a scene, such as mesh.bodies[0].thickness or "
+           "contacts.<name>.rigid.sphere.radius");
+  }
+  const bool of_motion =
+      path.find(".motion[") != std::string::npos || path.find(".control.") != std::string::npos;
+  for (const SceneTest& test : tests_) {
+    const bool imposed = path.starts_with("loads[") &&
+                         (test.over.key == "displacement" || test.over.key == "pressure");
+    if (of_motion && (test.over.key == "u_ind" || test.over.key == "force"))
+      refuse(path + " of a scene that was measured over " + test.over.key,
+             "data[i].touch_offset or data[i].compliance");
+    if (imposed)
+      refuse(path + " of a scene that was measured over its " + test.over.key,
+             "columns: {t: ...}, or another number");
+  }
+  if (differentiated) {
+    add_slope(path, number, 1);
+  } else {
+    numbers_[number].quotient = true;
+  }
+}
+
+void complete_scene_numbers(const FitConfig& config,
+                            const std::function<Place(const std::string&)>& where,
+                            FitProblem& problem) {
+  std::vector<ForwardRun> runs;
+  for (std::size_t i = 0; i < problem.free.size(); ++i) {
+    FreeParameter& free = problem.free[i];
+    const bool complete =
+        std::isfinite(free.start) && std::isfinite(free.lower) && std::isfinite(free.upper);
+    const auto number = scene_number(config, free);
+    if (complete || !number || number->of != SceneNumber::Of::of_config) continue;
+    if (runs.empty())
+      for (std::size_t item = 0; item < config.data.size(); ++item)
+        if (config.data[item].is_scene()) {
+          Loaded<SolveConfig> loaded = scene_config(config.data[item], item, where);
+          runs.emplace_back(loaded.config, loaded.where, 0.);
+        }
+    std::optional<double> value;
+    for (const ForwardRun& run : runs)
+      if (!value) value = run.number(free.key);
+    if (!value) {
+      const std::string key = fmt::format("parameters[{}].key", i);
+      std::string why = runs.front().reason_fixed(free.key);
+      throw Failure(Exit::config, Error{where(key), key, free.key + ": " + why,
+                                        "a number of a scene, such as mesh.bodies[0].thickness or "
+                                        "contacts.<name>.rigid.sphere.radius",
+                                        ""});
+    }
+    if (!std::isfinite(free.start)) free.start = *value;
+    double low = std::min(0.5 * free.start, 2 * free.start);
+    double high = std::max(0.5 * free.start, 2 * free.start);
+    if (free.start == 0) {
+      low = -1;
+      high = 1;
+    }
+    const auto& prior = config.parameters[i].prior;
+    if (prior && prior->normal) {
+      low = std::min(low, (*prior->normal)[0] - 6 * (*prior->normal)[1]);
+      high = std::max(high, (*prior->normal)[0] + 6 * (*prior->normal)[1]);
+      if (*value > 0) low = std::max(low, 0.01 * *value);
+    }
+    if (!std::isfinite(free.lower)) free.lower = low;
+    if (!std::isfinite(free.upper)) free.upper = high;
+    if (free.start < free.lower || free.start > free.upper) {
+      const std::string key = fmt::format("parameters[{}].start", i);
+      throw Failure(Exit::config,
+                    Error{where(key), key, fmt::format("starts at {:g}", free.start),
+                          fmt::format("between {:g} and {:g}", free.lower, free.upper), ""});
+    }
+  }
 }
 
 }  // namespace langer

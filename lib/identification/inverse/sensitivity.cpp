@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/model/torque.hpp"
@@ -122,6 +123,19 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   std::vector<ParameterChange> out(parameters().size());
   energies.assign(out.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i) {
+    if (parameters_.layer(i)) {
+      const Assembler::Forces rate = change_by_thickness(i);
+      out[i].f = rate.f;
+      energies[i] = rate.W;
+      continue;
+    }
+    if (parameters_.shape(i)) {
+      for (const RigidContact& contact : scene.contacts) {
+        auto& shape = out[i].shapes.emplace_back();
+        if (contact.name == parameters_.contact(i)) shape = parameters_.shape(i);
+      }
+      continue;
+    }
     if (!parameters_.of_laws(i)) {
       for (const RigidContact& contact : scene.contacts)
         out[i].mu.push_back(static_cast<double>(contact.name == parameters_.contact(i)));
@@ -145,6 +159,34 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     energies[i] = (more.W - less.W) / width;
   }
   return out;
+}
+
+// What the thickness of a layer changes of forces and energy where displacements stand still: nodes
+// at rest move, and with them the deformation of the cells. A central difference of fourth order:
+// the steps are so long that what a nearly incompressible body amplifies of rounding stays small.
+Assembler::Forces Sensitivity::change_by_thickness(std::size_t i) {
+  constexpr std::array<double, 4> place{-2, -1, 1, 2};
+  constexpr std::array<double, 4> weight{1. / 12, -8. / 12, 8. / 12, -1. / 12};
+  const LayerThickness& layer = *parameters_.layer(i);
+  ThicknessSteps& steps = by_thickness_[i];
+  if (steps.bodies.empty()) {
+    steps.step = 2e-3 * layer.value();
+    for (const double at : place)
+      steps.meshes.push_back(layer.with(run_.reduction.mesh(), layer.value() + at * steps.step));
+    for (const Mesh& mesh : steps.meshes) steps.bodies.push_back(run_.reduction.assembler_on(mesh));
+  }
+  const VecX& u = run_.statics.accepted().u;
+  Assembler::Forces rate;
+  rate.f = VecX::Zero(u.size());
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    Assembler& body = *steps.bodies[k];
+    body.assemble(u, false);
+    body.pressures_from(u);
+    body.assemble(u, false);
+    rate.f += weight[k] / steps.step * body.f_int();
+    rate.W += weight[k] / steps.step * body.W();
+  }
+  return rate;
 }
 
 // Direct differentiation of one increment: K du/dp = -df/dp with the factorized tangent of the

@@ -7,6 +7,8 @@
 // the two before it.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -46,6 +48,7 @@ class Sensitivity {
  private:
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
+  Assembler::Forces change_by_thickness(std::size_t i);
   StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions,
                      double energy) const;
   StepRecord of_whole(const StepRecord& derivative, const StepRecord& whole) const;
@@ -59,6 +62,13 @@ class Sensitivity {
   BodyState last_, earlier_;  // accepted states of the part
   std::vector<StateDerivative> d_last_, d_earlier_;
   std::vector<StepRecord> of_part_, now_;
+  // by parameter: the part of the body where a layer is thinner and thicker, by steps of that size
+  struct ThicknessSteps {
+    double step = 0;
+    std::vector<Mesh> meshes;
+    std::vector<std::unique_ptr<Assembler>> bodies;
+  };
+  std::map<std::size_t, ThicknessSteps> by_thickness_;
 };
 
 // Derivative of -force . way/|way| with a fixed direction; of |force| if there is no way.

@@ -7,22 +7,58 @@
 #include <filesystem>
 
 #include "core/base/text.hpp"
+#include "identification/population/link.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
+
+namespace {
+
+// The covariance of a specimen that was not tested: scatter of the population and error of its
+// median, to first order on the scale of the numbers themselves.
+MatX scatter_of(const PopulationRecord& population, const FitRecord& fit) {
+  const auto n = static_cast<Eigen::Index>(fit.parameters.size());
+  MatX covariance = MatX::Constant(n, n, std::nan(""));
+  const MatX of_phi = population.scatter + population.median_covariance;
+  VecX slope(of_phi.rows());
+  for (Eigen::Index j = 0; j < slope.size(); ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    Link link;
+    link.lower = population.lower[at];
+    link.upper = population.upper[at];
+    if (population.links[at] == "log") link.kind = LinkKind::log;
+    if (population.links[at] == "logit") link.kind = LinkKind::logit;
+    slope[j] = link.slope(population.median[j]);
+  }
+  for (std::size_t a = 0; a < fit.parameters.size(); ++a)
+    for (std::size_t b = 0; b < fit.parameters.size(); ++b) {
+      const auto i = std::ranges::find(population.names, fit.parameters[a].name);
+      const auto j = std::ranges::find(population.names, fit.parameters[b].name);
+      if (i == population.names.end() || j == population.names.end()) continue;
+      const Eigen::Index row = i - population.names.begin();
+      const Eigen::Index column = j - population.names.begin();
+      covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+          slope[row] * of_phi(row, column) * slope[column];
+    }
+  return covariance;
+}
+
+}  // namespace
 
 // What a fitted material file says about its parameters: covariance of those with a variance, and
 // the keys of the numbers that follow each of them, ties included.
 ParameterKnowledge knowledge_of(const MaterialFile& file) {
   ParameterKnowledge known;
   if (!file.fit) return known;
+  const MatX uncertain =
+      file.fit->population ? scatter_of(*file.fit->population, *file.fit) : file.fit->covariance;
   Material material = file.material;
   const std::vector<MaterialParameter> numbers = parameters(material);
   const std::vector<FittedParameter>& fitted = file.fit->parameters;
   std::vector<Eigen::Index> kept;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const double variance = file.fit->covariance(at, at);
+    const double variance = uncertain(at, at);
     if (std::isfinite(variance) && variance > 0) {
       kept.push_back(at);
       known.names.push_back(fitted[i].name);
@@ -33,8 +69,8 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
   known.covariance.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      known.covariance(i, j) = file.fit->covariance(kept[static_cast<std::size_t>(i)],
-                                                    kept[static_cast<std::size_t>(j)]);
+      known.covariance(i, j) =
+          uncertain(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
   const std::vector<Tie> ties = resolved(file.fit->ties).ties;
   std::vector<VecX> rows;
   for (const MaterialParameter& p : numbers) {
@@ -208,7 +244,7 @@ void report_forces(const Voice& voice, const ParameterKnowledge& known,
   if (known.left_out.empty()) return;
   std::string names;
   for (const std::string& name : known.left_out) append(names, ", ", name);
-  voice.say("not included, since the fit gives them no variance: {}", names);
+  voice.detail("not included, since the fit gives them no variance: {}", names);
 }
 
 }  // namespace langer

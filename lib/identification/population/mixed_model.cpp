@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "core/base/in_order.hpp"
+#include "core/base/random.hpp"
 #include "core/tensor/dense.hpp"
+#include "identification/posterior/nuts.hpp"
 
 namespace langer {
 
@@ -76,6 +78,10 @@ class LinearMixed {
     MatX beta_information;
     VecX gradient;     // of -2 ln L
     MatX information;  // Fisher's, of ln L
+    // of the determinant of beta's information: ln of it and its gradient, for restricted
+    // likelihood
+    double log_determinant = 0;
+    VecX log_determinant_gradient;
   };
 
   Value at(const VecX& x, bool with_slopes) const {
@@ -150,6 +156,41 @@ class LinearMixed {
     return value;
   }
 
+  // Adds ln |N| of the information N of beta, and with dS of a parameter
+  //   d ln |N| = -tr(N^-1 X^T S^-1 dS S^-1 X)
+  void add_log_determinant(const VecX& x, Value& value) const {
+    const MatX L = factor(x);
+    const MatX omega = L * L.transpose();
+    const double variance = std::exp(x[size() - 1]);
+    const Eigen::LLT<MatX> information(value.beta_information);
+    value.log_determinant = 2 * information.matrixLLT().diagonal().array().log().sum();
+    value.log_determinant_gradient = VecX::Zero(size());
+    MatX of_omega = MatX::Zero(random_size(), random_size());
+    double of_variance = 0;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const Linear& one = data[i];
+      const MatX Rr = one.R(Eigen::all, random_);
+      MatX S = Rr * omega * Rr.transpose();
+      S.diagonal().array() += variance;
+      const MatX M = S.llt().solve(one.R * specimens_[i].design);
+      const MatX G = M * information.solve(M.transpose());
+      of_omega += Rr.transpose() * G * Rr;
+      of_variance += variance * G.trace();
+    }
+    for (std::size_t e = 0; e < entry_.size(); ++e)
+      value.log_determinant_gradient[static_cast<Eigen::Index>(e)] =
+          -(of_omega * omega_slope(L, e)).trace();
+    value.log_determinant_gradient[size() - 1] = -of_variance;
+  }
+
+  bool on_diagonal(std::size_t e) const { return entry_[e].row == entry_[e].column; }
+  Eigen::Index row_of(std::size_t e) const { return entry_[e].row; }
+  std::size_t entries() const { return entry_.size(); }
+  // how many entries a row of L has up to its diagonal
+  Eigen::Index row_entries(Eigen::Index row) const {
+    return std::ranges::count_if(entry_, [row](const Entry& e) { return e.row == row; });
+  }
+
   // The parameters of largest likelihood, from x on.
   VecX maximise(VecX x) const {
     double damping = 1e-3;
@@ -211,6 +252,86 @@ class LinearMixed {
   const std::vector<MixedSpecimen>& specimens_;
   std::vector<Eigen::Index> random_;
   std::vector<Entry> entry_;
+};
+
+// The density of scatter and noise, beta integrated. The sampler sees the logarithms of the
+// diagonal of L, its other entries over the deviation of the estimate, and ln sigma^2.
+class ScatterDensity {
+ public:
+  ScatterDensity(const LinearMixed& model, const MatX& L)
+      : model_(model), unit_(VecX::Ones(model.size())) {
+    for (std::size_t e = 0; e < model.entries(); ++e)
+      unit_[static_cast<Eigen::Index>(e)] = std::max(1e-9, L.row(model.row_of(e)).norm());
+  }
+
+  VecX parameters(const VecX& y) const {
+    VecX x = y;
+    for (std::size_t e = 0; e < model_.entries(); ++e) {
+      const auto at = static_cast<Eigen::Index>(e);
+      if (model_.on_diagonal(e)) x[at] = std::exp(y[at]);
+      x[at] *= unit_[at];
+    }
+    return x;
+  }
+
+  VecX place(const VecX& x) const {
+    VecX y = x;
+    for (std::size_t e = 0; e < model_.entries(); ++e) {
+      const auto at = static_cast<Eigen::Index>(e);
+      y[at] = x[at] / unit_[at];
+      if (model_.on_diagonal(e)) y[at] = std::log(std::max(1e-3, std::abs(y[at])));
+    }
+    return y;
+  }
+
+  double operator()(const VecX& y, VecX& gradient) const {
+    const VecX x = parameters(y);
+    gradient = VecX::Zero(y.size());
+    const double never = -std::numeric_limits<double>::infinity();
+    if (!x.allFinite()) return never;
+    LinearMixed::Value value = model_.at(x, true);
+    if (!std::isfinite(value.minus_two_log_likelihood)) return never;
+    model_.add_log_determinant(x, value);
+    double density = -0.5 * (value.minus_two_log_likelihood + value.log_determinant);
+    gradient = -0.5 * (value.gradient + value.log_determinant_gradient);
+    if (!std::isfinite(density) || !gradient.allFinite()) return never;
+    const MatX L = model_.factor(x);
+    for (std::size_t e = 0; e < model_.entries(); ++e) {
+      // a row of n entries that has a uniform direction and a flat length has the density
+      // |row|^(1-n)
+      const auto at = static_cast<Eigen::Index>(e);
+      const Eigen::Index row = model_.row_of(e);
+      const double n = static_cast<double>(model_.row_entries(row));
+      const double square = L.row(row).squaredNorm();
+      gradient[at] += (1 - n) * x[at] / square;
+      if (model_.on_diagonal(e)) {
+        density += 0.5 * (1 - n) * std::log(square);
+        gradient[at] *= x[at];
+        density += y[at];
+        gradient[at] += 1;
+      } else {
+        gradient[at] *= unit_[at];
+      }
+    }
+    return density;
+  }
+
+  // covariance by Fisher's information, for the first steps of the sampler
+  MatX scale(const VecX& y) const {
+    const VecX x = parameters(y);
+    MatX H = model_.at(x, true).information;
+    VecX slope = unit_;
+    for (std::size_t e = 0; e < model_.entries(); ++e)
+      if (model_.on_diagonal(e))
+        slope[static_cast<Eigen::Index>(e)] = x[static_cast<Eigen::Index>(e)];
+    H = (slope.asDiagonal() * H * slope.asDiagonal()).eval();
+    H.diagonal().array() += 0.25;
+    return H.llt().solve(MatX::Identity(H.rows(), H.cols()));
+  }
+
+ private:
+  const LinearMixed& model_;
+  VecX unit_;
 };
 
 // The mode of one specimen: min over z of |u(centre + L z)|^2 / sigma^2 + |z|^2. False where the
@@ -547,6 +668,76 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
   result.likelihood_parameters =
       static_cast<int>(result.beta.size()) + static_cast<int>(model.size());
   return result;
+}
+
+MixedDraws mixed_posterior(const std::vector<MixedSpecimen>& specimens, const MixedResult& estimate,
+                           const MixedOptions& options, const PosteriorConfig& config,
+                           int threads) {
+  const auto q = specimens.front().design.rows();
+  std::vector<Eigen::Index> random;
+  for (Eigen::Index j = 0; j < q; ++j)
+    if (options.varies.empty() || options.varies[static_cast<std::size_t>(j)]) random.push_back(j);
+  LinearMixed model(specimens, random, options.full);
+  model.reference = estimate.beta;
+  model.data.resize(specimens.size());
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    make_linear(specimens[i], specimens[i].design * estimate.beta + estimate.b[i], model.data[i]);
+  // a deviation that the estimate puts at 0 begins at a small one
+  MatX omega = estimate.omega(random, random);
+  omega.diagonal().array() += 1e-4 * std::max(1e-12, omega.diagonal().maxCoeff());
+  const MatX L = omega.llt().matrixL();
+  const ScatterDensity density(model, L);
+  const VecX start = density.place(model.parameters(L, estimate.sigma));
+  const MatX scale = density.scale(start);
+  const MatX root = scale.llt().matrixL();
+
+  const int each = (config.samples + config.chains - 1) / config.chains;
+  std::vector<NutsChain> chains(static_cast<std::size_t>(config.chains));
+  in_order(
+      std::min(threads, config.chains), config.chains,
+      [&](int, int chain) {
+        Random begin(static_cast<std::uint64_t>(config.seed) + 77,
+                     static_cast<std::uint64_t>(chain));
+        VecX z(start.size());
+        for (double& one : z) one = begin.normal();
+        NutsOptions nuts;
+        nuts.samples = each;
+        nuts.warmup = config.warmup;
+        nuts.seed = static_cast<std::uint64_t>(config.seed);
+        nuts.chain = static_cast<std::uint64_t>(chain);
+        nuts.acceptance = config.acceptance;
+        const LogDensity of_scatter = [&](const VecX& y, VecX& gradient) {
+          return density(y, gradient);
+        };
+        chains[static_cast<std::size_t>(chain)] =
+            sample_chain(of_scatter, start + root * z, scale, nuts);
+      },
+      [](int, int) {});
+
+  const Eigen::Index samples = static_cast<Eigen::Index>(each) * config.chains;
+  const auto k = estimate.beta.size();
+  MixedDraws draws{MatX(samples, k), MatX::Zero(samples, q), VecX(samples), VecX(samples),
+                   config.chains};
+  Random random_beta(static_cast<std::uint64_t>(config.seed), 9001);
+  Eigen::Index row = 0;
+  for (const NutsChain& chain : chains) {
+    draws.divergences += chain.divergences;
+    draws.acceptance += chain.acceptance / config.chains;
+    for (Eigen::Index i = 0; i < chain.draws.rows(); ++i, ++row) {
+      const VecX x = density.parameters(chain.draws.row(i).transpose());
+      const LinearMixed::Value value = model.at(x, false);
+      VecX z(k);
+      for (double& one : z) one = random_beta.normal();
+      const MatX covariance = pseudo_inverse(value.beta_information);
+      draws.beta.row(row) = (value.beta + covariance_root(covariance) * z).transpose();
+      const MatX rows = model.factor(x);
+      for (std::size_t j = 0; j < random.size(); ++j)
+        draws.deviations(row, random[j]) = rows.row(static_cast<Eigen::Index>(j)).norm();
+      draws.sigma[row] = std::exp(0.5 * x[model.size() - 1]);
+      draws.log_density[row] = chain.log_density[i];
+    }
+  }
+  return draws;
 }
 
 }  // namespace langer

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/tensor/types.hpp"
+#include "identification/statistics/posterior_config.hpp"
 
 namespace langer {
 
@@ -67,5 +68,20 @@ struct MixedResult : MixedState {
 
 MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const MixedState& start,
                             const MixedOptions& options);
+
+// The posterior of beta, Omega and sigma of the model that is linear at the modes of an estimate.
+// The specimens' own numbers are integrated in closed form, and so is beta: the sampler moves in
+// the entries of L and in ln sigma alone, and each sample of beta is drawn from its normal
+// distribution given those. Priors are flat in beta, in the deviations between specimens, in the
+// directions of the rows of L (all correlations of two numbers alike) and in ln sigma.
+struct MixedDraws {
+  MatX beta;        // (samples, k)
+  MatX deviations;  // (samples, q) between specimens, 0 of numbers that do not vary
+  VecX sigma, log_density;
+  int chains = 0, divergences = 0;
+  double acceptance = 0;
+};
+MixedDraws mixed_posterior(const std::vector<MixedSpecimen>& specimens, const MixedResult& estimate,
+                           const MixedOptions& options, const PosteriorConfig& config, int threads);
 
 }  // namespace langer

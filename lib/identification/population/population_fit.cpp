@@ -23,6 +23,7 @@
 #include "identification/population/link.hpp"
 #include "identification/population/mean_curves.hpp"
 #include "identification/population/mixed_model.hpp"
+#include "identification/posterior/posterior.hpp"
 #include "identification/setup/specimen_table.hpp"
 #include "results/store/curves_file.hpp"
 
@@ -204,9 +205,24 @@ class Population {
     }
   }
 
-  // The mixed model with these columns of its design left out.
-  MixedResult estimate(const MixedState& start, NoiseKind kind,
-                       const std::vector<Eigen::Index>& columns) {
+  // Samples of the population and its scatter, of an estimate with all columns.
+  MixedDraws draws(const MixedResult& result, NoiseKind kind, const PosteriorConfig& config) {
+    const auto [specimens, options] = mixed_problem(kind, design_columns());
+    std::vector<VecX> modes;
+    for (std::size_t i = 0; i < size(); ++i)
+      modes.push_back(design_[i] * result.beta + result.b[i]);
+    reweigh(modes, kind);
+    return mixed_posterior(specimens, result, options, config, config_.jobs);
+  }
+
+  std::vector<Eigen::Index> design_columns() const {
+    std::vector<Eigen::Index> columns(static_cast<std::size_t>(design_.front().cols()));
+    std::iota(columns.begin(), columns.end(), 0);
+    return columns;
+  }
+
+  std::pair<std::vector<MixedSpecimen>, MixedOptions> mixed_problem(
+      NoiseKind kind, const std::vector<Eigen::Index>& columns) {
     std::vector<MixedSpecimen> specimens;
     for (std::size_t i = 0; i < size(); ++i) {
       specimens.push_back(
@@ -227,6 +243,13 @@ class Population {
     options.reweigh = [this, kind](const std::vector<VecX>& phi) {
       reweigh(phi, kind);
     };
+    return {std::move(specimens), std::move(options)};
+  }
+
+  // The mixed model with these columns of its design left out.
+  MixedResult estimate(const MixedState& start, NoiseKind kind,
+                       const std::vector<Eigen::Index>& columns) {
+    const auto [specimens, options] = mixed_problem(kind, columns);
     MixedResult result = fit_mixed_model(specimens, start, options);
     std::string unlimited;
     for (const Eigen::Index j : result.unlimited)
@@ -860,12 +883,57 @@ void say_result(const Population& all, const First& first, const MixedResult& re
   }
 }
 
+// The posterior of a population: medians of its numbers and deviations between specimens, on the
+// scale that varies normally.
+void add_posterior(Population& all, const MixedResult& result, NoiseKind kind,
+                   PopulationOutcome& outcome) {
+  const MixedDraws draws = all.draws(result, kind, *all.config_.study->posterior);
+  const auto q = all.numbers();
+  Posterior posterior;
+  posterior.chains = draws.chains;
+  posterior.divergences = draws.divergences;
+  posterior.acceptance = draws.acceptance;
+  posterior.log_density = draws.log_density;
+  std::vector<VecX> columns;
+  for (Eigen::Index j = 0; j < q; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    VecX column = draws.beta.col(j);
+    for (double& x : column) x = all.links_[at].backward(x);
+    columns.push_back(column);
+    posterior.names.push_back(all.names_[at]);
+  }
+  for (std::size_t c = 0; c < all.effects_.size(); ++c) {
+    const Population::Effect& effect = all.effects_[c];
+    columns.emplace_back(draws.beta.col(q + static_cast<Eigen::Index>(c)));
+    posterior.names.push_back(all.names_[static_cast<std::size_t>(effect.number)] + "_by_" +
+                              effect.name);
+  }
+  for (Eigen::Index j = 0; j < q; ++j) {
+    if (!all.varies_[static_cast<std::size_t>(j)]) continue;
+    columns.emplace_back(draws.deviations.col(j));
+    posterior.names.push_back(all.names_[static_cast<std::size_t>(j)] + "_deviation");
+  }
+  posterior.samples.resize(draws.beta.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    posterior.samples.col(static_cast<Eigen::Index>(j)) = columns[j];
+  summarise(posterior);
+  for (const std::string& line : posterior_lines(posterior)) outcome.lines.push_back(line);
+  for (const std::string& line : posterior_warnings(posterior)) outcome.warnings.push_back(line);
+  outcome.record.tables.push_back(posterior.table);
+  outcome.files.push_back({"posterior.csv", csv(posterior.table)});
+  outcome.files.push_back({"posterior_samples.csv", posterior_csv(posterior)});
+}
+
 }  // namespace
 
 std::vector<std::string> population_files(const FitConfig& config) {
   std::vector<std::string> files{"population.csv", "correlations.csv", "specimen_estimates.csv"};
   if (!config.specimens->covariates.empty()) files.push_back("effects.csv");
   if (config.specimens->people > 0) files.push_back("prediction.csv");
+  if (config.study && config.study->posterior) {
+    files.push_back("posterior.csv");
+    files.push_back("posterior_samples.csv");
+  }
   return files;
 }
 
@@ -900,6 +968,7 @@ PopulationOutcome fit_population(const FitConfig& config,
   set_record(all, result, noise, outcome.record);
   outcome.record.tables.push_back(population_table(all, first, result));
   outcome.files.push_back({"population.csv", csv(outcome.record.tables.back())});
+  if (config.study && config.study->posterior) add_posterior(all, result, noise.kind, outcome);
   outcome.files.push_back({"correlations.csv", correlation_csv(all, result)});
   outcome.files.push_back({"specimen_estimates.csv", specimen_csv(all, first, result, rows)});
   if (config.specimens->people > 0)

@@ -154,7 +154,7 @@ class FitDensity {
   bool known_noise_ = false;
 };
 
-void set_table(const FitProblem& problem, Posterior& result) {
+void set_table(Posterior& result) {
   RecordTable& table = result.table;
   table.name = "posterior";
   table.row = "parameter";
@@ -162,7 +162,7 @@ void set_table(const FitProblem& problem, Posterior& result) {
   for (const char* name : {"mean", "standard_deviation", "lower_95", "quartile_1", "median",
                            "quartile_3", "upper_95", "r_hat", "effective_samples"})
     table.column(name);
-  for (std::size_t j = 0; j < problem.free.size(); ++j) {
+  for (std::size_t j = 0; j < result.names.size(); ++j) {
     const VecX column = result.samples.col(static_cast<Eigen::Index>(j));
     std::vector<double> sorted(column.data(), column.data() + column.size());
     std::sort(sorted.begin(), sorted.end());
@@ -224,29 +224,32 @@ Posterior posterior(const FitProblem& problem, const FitResult& fit, const Poste
   result.chains = config.chains;
   result.samples.resize(static_cast<Eigen::Index>(each) * config.chains, p);
   result.log_density.resize(result.samples.rows());
-  std::vector<std::vector<VecX>> columns(static_cast<std::size_t>(p));
   Eigen::Index row = 0;
   for (const NutsChain& chain : chains) {
-    const Eigen::Index begin = row;
     for (Eigen::Index i = 0; i < chain.draws.rows(); ++i, ++row) {
       VecX numbers = first.numbers(chain.draws.row(i).transpose());
       first.turn_to_estimate(numbers);
       result.samples.row(row) = numbers.transpose();
       result.log_density[row] = chain.log_density[i];
     }
-    for (Eigen::Index j = 0; j < p; ++j)
-      columns[static_cast<std::size_t>(j)].push_back(
-          result.samples.col(j).segment(begin, chain.draws.rows()));
     result.divergences += chain.divergences;
     result.acceptance += chain.acceptance / config.chains;
   }
-  for (Eigen::Index j = 0; j < p; ++j) {
-    const Convergence c = convergence(columns[static_cast<std::size_t>(j)]);
-    result.r_hat.push_back(c.r_hat);
-    result.effective.push_back(c.effective);
-  }
-  set_table(problem, result);
+  summarise(result);
   return result;
+}
+
+void summarise(Posterior& posterior) {
+  const Eigen::Index each = posterior.samples.rows() / posterior.chains;
+  for (Eigen::Index j = 0; j < posterior.samples.cols(); ++j) {
+    std::vector<VecX> chains;
+    for (int chain = 0; chain < posterior.chains; ++chain)
+      chains.emplace_back(posterior.samples.col(j).segment(chain * each, each));
+    const Convergence c = convergence(chains);
+    posterior.r_hat.push_back(c.r_hat);
+    posterior.effective.push_back(c.effective);
+  }
+  set_table(posterior);
 }
 
 std::string posterior_csv(const Posterior& posterior) {

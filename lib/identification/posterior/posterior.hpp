@@ -34,6 +34,9 @@ struct Posterior {
 Posterior posterior(const FitProblem& problem, const FitResult& fit, const PosteriorConfig& config,
                     int threads, const std::function<void(double)>& progress = {});
 
+// R-hat, effective samples and the table of samples that are there: chain after chain.
+void summarise(Posterior& posterior);
+
 std::string posterior_csv(const Posterior& posterior);  // chain, parameters, log_density
 std::vector<std::string> posterior_lines(const Posterior& posterior);
 std::vector<std::string> posterior_warnings(const Posterior& posterior);

@@ -70,7 +70,8 @@ void complain_of_other_keys(const FitConfig& config, const std::string& key,
            "check the law that is chosen in a fit of its own");
   if (key == "specimens") {
     complain(config.leave_one_out, "leave_one_out", "");
-    complain(config.study.has_value(), "study", "intervals are part of the fit of a population");
+    complain(config.study.has_value() && !config.study->posterior, "study",
+             "intervals are part of the fit of a population; study: {posterior: {}} is possible");
   }
   for (std::size_t i = 0; i < config.parameters.size(); ++i)
     complain(config.parameters[i].prior.has_value(), fmt::format("parameters[{}].prior", i), "");

@@ -149,6 +149,7 @@ namespace {
 // A parameter that is not a number of the material: friction, or a quantity of the instrument.
 FreeParameter free_number(const FitConfig& config, const FitParameter& p,
                           const SceneNumber& number) {
+  if (number.of == SceneNumber::Of::of_config) return scene_config_parameter(p);
   FreeParameter one{p.key, 0, 0, 0, false, "friction", unit::none};
   Range box{0, 2};
   const FitData* data = nullptr;  // none for friction
@@ -177,6 +178,11 @@ FreeParameter free_number(const FitConfig& config, const FitParameter& p,
       one.name = "prestretch_across" + behind;
       one.start = data->prestretch.value_or(PrestretchConfig{}).across;
       box = {0.7, 1.5};
+    } else if (number.of == SceneNumber::Of::fibre_angle) {
+      one.name = "fibre_angle" + behind;
+      one.unit = unit::deg;
+      one.start = data->fibre_angle;
+      box = {one.start - 90, one.start + 90};
     } else {
       one.name = "compliance" + behind;
       one.unit = "mm/N";
@@ -419,7 +425,8 @@ std::vector<Complaint> FitConfig::complaints() const {
             ", data[i].prestretch.along, data[i].prestretch.across of a wave test";
       if (has_scenes())
         all.back().expected +=
-            ", contacts.<name>.friction, data[i].touch_offset, data[i].force_offset, data[i].compliance of a scene";
+            ", contacts.<name>.friction, data[i].touch_offset, data[i].force_offset, data[i].compliance, data[i].fibre_angle of a scene, or a number of its config such as "
+            "mesh.bodies[0].thickness";
       continue;
     }
     if (!seen.insert(p.key).second)
@@ -431,6 +438,8 @@ std::vector<Complaint> FitConfig::complaints() const {
     }
     const double lower = free[i].lower;
     const double upper = free[i].upper;
+    // what the scene gives is checked where the scene has been read
+    if (std::isnan(lower) || std::isnan(upper)) continue;
     const bool stretches = number && (number->of == SceneNumber::Of::stretch_along ||
                                       number->of == SceneNumber::Of::stretch_across);
     const bool from_zero = number && (number->of == SceneNumber::Of::friction ||

@@ -7,7 +7,8 @@
 //   ties:       [{key: "fibres[1].alpha", follows: "-fibres[0].alpha"}, ...]
 // A test may be a whole scene, {kind: scene, solve: ../solve/indentation.yaml, file: ..., columns:
 // {u_ind: ..., force: ...}}: then further numbers may be found, contacts.<name>.friction,
-// data[i].touch_offset, data[i].force_offset and data[i].compliance.
+// data[i].touch_offset, data[i].force_offset, data[i].compliance, data[i].fibre_angle, and any
+// number of the solve configs by its path, such as mesh.bodies[0].thickness.
 #pragma once
 
 #include <map>
@@ -375,12 +376,16 @@ struct SceneNumber {
     force_offset,
     compliance,
     stretch_along,  // of a wave
-    stretch_across
+    stretch_across,
+    fibre_angle,  // of a scene: how its specimen was cut
+    of_config     // any number of a solve config, in all scenes that have it
   } of = Of::friction;
-  std::string contact;   // of friction
+  std::string contact;   // of friction; of of_config the path of the number
   std::size_t data = 0;  // of the others
 };
 std::optional<SceneNumber> scene_number(const FitConfig& config, const std::string& key);
+// the free parameter that such a number of a solve config is; what is not given is NaN
+FreeParameter scene_config_parameter(const FitParameter& p);
 std::optional<SceneNumber> wave_number_key(const FitConfig& config, const std::string& key);
 inline std::optional<SceneNumber> scene_number(const FitConfig& config, const FreeParameter& p) {
   if (p.is_material_number()) return std::nullopt;

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "identification/setup/fit_config.hpp"
+#include "scene/model/config_number.hpp"
 
 namespace langer {
 
@@ -127,10 +129,53 @@ std::optional<SceneNumber> scene_number(const FitConfig& config, const std::stri
   for (std::size_t i = 0; i < config.data.size(); ++i)
     for (const auto& [word, of] : {std::pair("touch_offset", SceneNumber::Of::touch_offset),
                                    {"force_offset", SceneNumber::Of::force_offset},
-                                   {"compliance", SceneNumber::Of::compliance}})
+                                   {"compliance", SceneNumber::Of::compliance},
+                                   {"fibre_angle", SceneNumber::Of::fibre_angle}})
       if (config.data[i].is_scene() && key == fmt::format("data[{}].{}", i, word))
         return SceneNumber{of, "", i};
+  for (const char* begin :
+       {"contacts.", "mesh.", "materials.", "loads[", "bodies.", "fibre_field.", "fibre_angles["})
+    if (key.starts_with(begin)) return SceneNumber{SceneNumber::Of::of_config, key};
   return std::nullopt;
+}
+
+namespace {
+
+// "contacts.ball.rigid.sphere.radius" becomes "ball_radius", "mesh.bodies[1].thickness"
+// "thickness_2", "materials.fat.matrix.yeoh.a1" "fat_a1".
+std::string short_name(const std::string& path) {
+  std::string last = path.substr(path.rfind('.') + 1);
+  const auto part = [&](std::size_t begin) {
+    return path.substr(begin, path.find('.', begin) - begin);
+  };
+  if (path.starts_with("contacts.")) return part(9) + "_" + last;
+  if (path.starts_with("materials.")) return part(10) + "_" + last;
+  if (path.starts_with("mesh.bodies[") && last == "thickness")
+    return fmt::format("thickness_{}", std::stoi(path.substr(12)) + 1);
+  if (path.starts_with("mesh.geometry.") && last == "size[1]") return "thickness";
+  std::string name;
+  for (const char c : path) {
+    if (c == ']') continue;
+    const bool separates = c == '.' || c == '[';
+    name += separates ? '_' : c;
+  }
+  return name;
+}
+
+}  // namespace
+
+// Value and box of a number of a scene that the config does not give are those of the scene, which
+// is read later: not a number until then.
+FreeParameter scene_config_parameter(const FitParameter& p) {
+  const double later = std::nan("");
+  FreeParameter one{
+      p.key, later, later, later, false, short_name(p.key), unit_of_config_number(p.key)};
+  if (p.prior && p.prior->normal) one.start = (*p.prior->normal)[0];
+  if (p.prior && p.prior->lognormal) one.start = (*p.prior->lognormal)[0];
+  one.start = p.start.value_or(one.start);
+  one.lower = p.lower.value_or(later);
+  one.upper = p.upper.value_or(later);
+  return one;
 }
 
 // Checks a candidate of the study: keys of scenes only with kind: scene, and a place for what is

@@ -89,6 +89,7 @@ struct StudyConfig {
   int threads = 1;
   bool figures = false;
   std::optional<PosteriorConfig> posterior = {};
+  std::optional<bool> held = {};
   static void fields(auto& v) {
     v(&StudyConfig::noise, "noise", unit::none,
       "least standard deviation of a measured value, as part of the largest stress; more where the fit misses by more",
@@ -109,6 +110,8 @@ struct StudyConfig {
     v(&StudyConfig::figures, "figures", unit::none, "draw correlations, profiles and stability");
     v(&StudyConfig::posterior, "posterior", unit::none,
       "samples of the parameters by their probability, priors included; {} for 2000 of four chains");
+    v(&StudyConfig::held, "held", unit::none,
+      "name the numbers of scenes that are held fixed and would widen an interval as parameters; none: in fits with scenes");
   }
 };
 

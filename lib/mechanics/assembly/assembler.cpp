@@ -20,7 +20,8 @@ Assembler::Assembler(const Mesh& mesh, std::vector<Material> materials, Directio
       pressures_(body_),
       viscous_(body_),
       tangent_(body_, packets_.blocks()),
-      threads_(threads) {
+      threads_(threads),
+      conserving_(body_) {
   f_ = VecX::Zero(body_.dofs().n);
   K_du_ = f_;
   if (!loads.empty()) set_loads(std::move(loads));
@@ -73,8 +74,13 @@ bool Assembler::assemble(const VecX& u, bool with_tangent, const VecX* du_prescr
       threads_, n_chunks,
       [&](int worker, int c) {
         for (int b = first(c); b < last(c); ++b) {
-          packets_.evaluate(static_cast<std::size_t>(b), u, pressures_, viscous_, with_tangent,
-                            out[worker * chunk + b - first(c)]);
+          PacketElement& element = out[worker * chunk + b - first(c)];
+          const auto block = static_cast<std::size_t>(b);
+          if (conserving_.active()) {
+            conserving_.evaluate(packets_.blocks()[block], u, pressures_, with_tangent, element);
+          } else {
+            packets_.evaluate(block, u, pressures_, viscous_, with_tangent, element);
+          }
         }
       },
       [&](int worker, int c) {
@@ -288,30 +294,9 @@ void Assembler::extrapolate_pressures(const VecX& u_before, double s) {
   pressures_.extrapolate(now, s);
 }
 
-Assembler::Forces Assembler::elastic_at(const VecX& u) const {
-  PressureField field = pressures_;
-  PacketElement out(body_.n_nodes(), body_.n_pressures());
-  Forces found;
-  // A first pass finds the dilatations, on which pressures and bubble moduli depend.
-  for (int pass = 0; pass < 2; ++pass) {
-    found = {VecX::Zero(body_.dofs().n), 0};
-    for (std::size_t b = 0; b < packets_.blocks().size(); ++b) {
-      packets_.evaluate(b, u, field, viscous_, false, out);
-      const ElementPackets::Block& block = packets_.blocks()[b];
-      for (int l = 0; l < block.n; ++l) {
-        const int e = block.cells[l];
-        found.W += out.W[l];
-        field.store_dilatations(e, out, l);
-        const auto nodes = body_.nodes(e);
-        for (int a = 0; a < body_.n_nodes(); ++a) {
-          const Vec3 force(out.f[3 * a][l], out.f[3 * a + 1][l], out.f[3 * a + 2][l]);
-          body_.add_force(found.f, nodes[a], e, force);
-        }
-      }
-    }
-    field.follow_dilatations();
-  }
-  return found;
+void Assembler::begin_conserving(const VecX& u0) {
+  conserving_.begin(u0);
+  pressures_.set_evaluated_at(VecX());
 }
 
 void Assembler::set_materials(std::vector<Material> materials, Directions directions) {

@@ -6,6 +6,7 @@
 // The parts of an assembly:
 //   BodyModel        elements, materials, degrees of freedom        body_model.hpp
 //   ElementPackets   forces and stiffness of eight elements at once  element_packets.hpp
+//   ConservingForces those of an increment that keeps its energy   conserving_forces.hpp
 //   PressureField    condensed pressures of mixed elements           pressure_field.hpp
 //   ViscousState     branch stresses of viscous materials            viscous_state.hpp
 //   SparseTangent    the global matrix                               sparse_tangent.hpp
@@ -21,6 +22,7 @@
 
 #include "mechanics/assembly/added_term.hpp"
 #include "mechanics/assembly/body_model.hpp"
+#include "mechanics/assembly/conserving_forces.hpp"
 #include "mechanics/assembly/element_packets.hpp"
 #include "mechanics/assembly/loads.hpp"
 #include "mechanics/assembly/pressure_field.hpp"
@@ -59,15 +61,18 @@ class Assembler {
   // A further force with its tangent, from now on in f_int() and K(); nullptr: none. Refers to it.
   void set_added_term(AddedTerm* term) { added_ = term; }
   const AddedTerm* added_term() const { return added_; }
-  // For forces that no element and no added term knows; until the next assembly.
-  void add_to_forces(const VecX& f) { f_ += f; }
   struct Forces {
     VecX f;        // (3 n) f_int [N]
     double W = 0;  // [N mm]
   };
-  // Energy and forces of the elements at u, with the pressures that belong to it. Not on several
-  // ranks.
-  Forces elastic_at(const VecX& u) const;
+
+  // From now on internal forces are those of an increment from u0, which keep its energy and
+  // angular momentum: assemble() then takes the middle of the increment, W() is the energy at its
+  // end, and K() the symmetric part of the derivative. Elastic bodies, on one rank.
+  void begin_conserving(const VecX& u0);
+  bool conserves() const { return conserving_.active(); }
+  // What K() omits of that derivative, times du (3 n) [N].
+  VecX conserving_skew(const VecX& du) const { return conserving_.skew_times(du); }
 
   // Forces and, if requested, the tangent at u. False if an element is turned inside out, or a
   // force is not finite. du_prescribed: the displacement of prescribed unknowns that is still to be
@@ -180,6 +185,7 @@ class Assembler {
   double W_ = 0;
   double J_min_ = 1;
   double floor_ = 0;
+  ConservingForces conserving_;
 };
 
 }  // namespace langer

@@ -1,12 +1,17 @@
 #include "mechanics/assembly/mass.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/assembly/separate_bodies.hpp"
 #include "mechanics/mesh/reference.hpp"
 
 namespace langer {
@@ -145,18 +150,20 @@ MatX without_nodes(MatX m, const std::vector<char>& gone) {
   return m;
 }
 
-// phi = (1, x, y, z) at each node, in a box of size 1 about the middle; of a section (1, x, y).
-MatX moment_functions(const Mesh& mesh) {
-  Vec3 low = mesh.X.front();
-  Vec3 high = mesh.X.front();
-  for (const Vec3& X : mesh.X) {
+// phi = (1, x, y, z) at the given nodes, in a box of size 1 about their middle, and 0 at others; of
+// a section (1, x, y).
+MatX moment_functions(const Mesh& mesh, const std::vector<int>& nodes) {
+  Vec3 low = mesh.X[static_cast<std::size_t>(nodes.front())];
+  Vec3 high = low;
+  for (int node : nodes) {
+    const Vec3& X = mesh.X[static_cast<std::size_t>(node)];
     low = low.cwiseMin(X);
     high = high.cwiseMax(X);
   }
   const double size = (high - low).maxCoeff();
   const int n = mesh.section ? 3 : 4;
-  MatX phi(mesh.n_nodes(), n);
-  for (int a = 0; a < mesh.n_nodes(); ++a) {
+  MatX phi = MatX::Zero(mesh.n_nodes(), n);
+  for (int a : nodes) {
     const Vec3 x = (mesh.X[a] - 0.5 * (low + high)) / size;
     phi(a, 0) = 1;
     for (int k = 1; k < n; ++k) phi(a, k) = x[k - 1];
@@ -204,6 +211,42 @@ void restore_moments(NodeMass& m, const MatX& phi, const MatX& wanted) {
   }
 }
 
+// Whether the mass of a body is positive for every movement of its nodes that have mass. Few layers
+// of nodes in front of one centre would need negative ones.
+bool is_positive(const NodeMass& m, const std::vector<int>& nodes) {
+  std::vector<int> row(static_cast<std::size_t>(m.cols()), -1);
+  int n = 0;
+  for (int node : nodes) {
+    if (m.coeff(node, node) != 0) row[static_cast<std::size_t>(node)] = n++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node : nodes) {
+    for (NodeMass::InnerIterator entry(m, node); entry; ++entry) {
+      const int i = row[static_cast<std::size_t>(entry.row())];
+      const int j = row[static_cast<std::size_t>(node)];
+      if (i >= 0 && j >= 0) entries.emplace_back(i, j, entry.value());
+    }
+  }
+  NodeMass of_body(n, n);
+  of_body.setFromTriplets(entries.begin(), entries.end());
+  return Eigen::SimplicialLLT<NodeMass>(of_body).info() == Eigen::Success;
+}
+
+// Nodes of each body that shares none with the others. Nodes without a cell belong to none, except
+// where there is one body only.
+std::vector<std::vector<int>> bodies_with_mass(const Mesh& mesh) {
+  std::vector<char> in_a_cell(mesh.X.size(), 0);
+  for (int node : mesh.connectivity) in_a_cell[static_cast<std::size_t>(node)] = 1;
+  std::vector<std::vector<int>> bodies = separate_bodies(mesh);
+  std::erase_if(bodies, [&](const std::vector<int>& nodes) {
+    return !in_a_cell[static_cast<std::size_t>(nodes.front())];
+  });
+  if (bodies.size() > 1) return bodies;
+  std::vector<int> all(mesh.X.size());
+  std::iota(all.begin(), all.end(), 0);
+  return {all};
+}
+
 // Mass by nodes of the mesh, before they are tied: rows of hanging nodes are empty.
 NodeMass node_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind,
                    const std::vector<char>& massless) {
@@ -239,8 +282,24 @@ NodeMass node_mass(const BodyModel& body, const std::vector<double>& density, Ma
   if (massless.empty()) return m;
   m.prune(0.0);
   if (m.nonZeros() == 0) throw std::invalid_argument("no node keeps its mass");
-  const MatX phi = moment_functions(mesh);
-  restore_moments(m, phi, moments(all.finish(), phi));
+  const NodeMass given = all.finish();
+  const std::vector<std::vector<int>> bodies = bodies_with_mass(mesh);
+  for (const std::vector<int>& nodes : bodies) {
+    const MatX phi = moment_functions(mesh, nodes);
+    const MatX wanted = moments(given, phi);
+    if (wanted(0, 0) > 0 && !(moments(m, phi)(0, 0) > 0)) {
+      throw std::invalid_argument("no node of a body keeps its mass");
+    }
+    restore_moments(m, phi, wanted);
+    if (bodies.size() == 1) continue;
+    const bool restored = (moments(m, phi) - wanted).norm() <= 1e-8 * wanted.norm();
+    if (restored && is_positive(m, nodes)) continue;
+    const Vec3& X = mesh.X[static_cast<std::size_t>(nodes.front())];
+    throw std::invalid_argument(fmt::format(
+        "the body at ({:g}, {:g}, {:g}) has too few cells behind its surface: its other "
+        "nodes cannot have its centre and moments with positive masses",
+        X[0], X[1], X[2]));
+  }
   return m;
 }
 

@@ -45,8 +45,9 @@ struct Mass {
 // massless: by node of the mesh; empty: none. The rows of these nodes vanish, and so do those of
 // nodes that move with them. What they had goes to the other nodes of their cells, and a small
 // change of all entries, m_ab (1 + phi_a' L phi_b) with phi = (1, x, y, z), restores the mass, its
-// centre and its moments of inertia. [KLR08], cell by cell. Throws std::invalid_argument if no node
-// is left.
+// centre and its moments of inertia, of each body that shares no node with others. [KLR08], cell by
+// cell. Throws std::invalid_argument if a body is left without mass, or one of several with a
+// negative one: too few layers of nodes are left.
 Mass make_mass(const BodyModel& body, const std::vector<double>& density, MassKind kind,
                const std::vector<char>& massless = {});
 

@@ -151,8 +151,8 @@ void project_reactions(const LocalProblem& problem, VecX& r) {
 }
 
 // Rounds of Gauss-Seidel sweeps, which find the status of each contact, and of Newton steps, which
-// then converge quadratically. Ends when the residual is small or the budget is spent; r gets the
-// best iterate.
+// then converge quadratically. Newton comes first where the solution next to r is wanted. Ends when
+// the residual is small or the budget is spent; r gets the best iterate.
 void gauss_seidel_newton(const LocalProblem& problem, const VecX& rho, VecX& r,
                          const LocalOptions& options, LocalReport& report) {
   VecX best = r;
@@ -168,7 +168,28 @@ void gauss_seidel_newton(const LocalProblem& problem, const VecX& rho, VecX& r,
   };
   int round = 12;  // sweeps before Newton is tried; doubled after each failure
   int sweeps = 0, newton_steps = 0;
-  while (least > options.tolerance && sweeps < options.sweeps) {
+  double last = least;
+  const auto take_newton_steps = [&] {
+    for (int s = 0; s < 12 && newton_steps < options.newton_steps; ++s) {
+      ++newton_steps;
+      if (!newton_step(problem, rho, r)) break;
+      last = update_best();
+      if (last <= options.tolerance) break;
+    }
+  };
+  constexpr double rounding = 1e-12;
+  bool solved = least <= options.tolerance;
+  if (options.next_to_start && !solved) {
+    const VecX start = r;
+    const double at_start = least;
+    take_newton_steps();
+    solved = least <= std::max(options.tolerance, rounding);
+    if (!solved) {
+      r = best = start;
+      least = at_start;
+    }
+  }
+  while (!solved && sweeps < options.sweeps) {
     const VecX start = r;
     bool ran_away = false;
     for (const int until = std::min(sweeps + round, options.sweeps); sweeps < until && !ran_away;
@@ -177,15 +198,10 @@ void gauss_seidel_newton(const LocalProblem& problem, const VecX& rho, VecX& r,
       ran_away = diverged(r);
     }
     if (update_best() <= options.tolerance) break;
-    double last = least;
+    last = least;
     VecX before_newton = r;
-    for (int s = 0; s < 12 && newton_steps < options.newton_steps; ++s) {
-      ++newton_steps;
-      if (!newton_step(problem, rho, r)) break;
-      last = update_best();
-      if (last <= options.tolerance) break;
-    }
-    if (least <= options.tolerance || least < 1e-12) break;  // the rest is rounding
+    take_newton_steps();
+    if (least <= options.tolerance || least < rounding) break;
     if (!(last < 1e-3)) r = before_newton;
     if (ran_away && r == start) break;  // the next round would repeat this one
     round = std::min(2 * round, options.sweeps);

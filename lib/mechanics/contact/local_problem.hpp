@@ -41,6 +41,9 @@ struct LocalOptions {
   double tolerance = 1e-13;
   int sweeps = 2000;       // in all
   int newton_steps = 100;  // in all
+  // Newton's method before the sweeps: if the problem has several solutions (W indefinite), it
+  // finds the one next to the start value, the sweeps any.
+  bool next_to_start = false;
 };
 
 LocalReport solve_local(const LocalProblem& problem, VecX& r, const LocalOptions& options = {});

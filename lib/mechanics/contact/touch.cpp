@@ -69,8 +69,8 @@ Vec3 slip_origin_change(const RigidContact& contact, const ExpectedMove& a, cons
     const Vec3 way = a.u - a.u0 - (a.c - a.c0);
     const Vec3 d_way = d.u - d.u0 - (d.c - d.c0);
     const double closed = from.gap - to.gap;
-    const double d_gap = from.normal.dot(d.u0 - d.c0);
-    const double d_closed = d_gap - to.normal.dot(d.u - d.c);
+    const double d_gap = from.normal.dot(d.u0 - d.c0) + d.gap0;
+    const double d_closed = d_gap - to.normal.dot(d.u - d.c) - d.gap;
     touches = 1;
     if (closed > from.gap) {
       touches = from.gap / closed;

@@ -36,11 +36,12 @@ double touch_travel_change(const RigidContact& contact, double t, double travel,
 struct ExpectedMove {
   Vec3 X, u0, u, c0, c;
   double angle = 0;
+  double gap0 = 0, gap = 0;  // of a change: what another shape adds to the gaps at u0 and at u
 };
 // The displacement from which the slip is measured: u0 if the node touches at the start (within
 // `tolerance`) and the indenter does not turn.
 Vec3 slip_origin(const RigidContact& contact, const ExpectedMove& a, double tolerance);
-// Its derivative if u0, u, c0 and c change by those of `d`.
+// Its derivative if u0, u, c0, c and the gaps change by those of `d`.
 Vec3 slip_origin_change(const RigidContact& contact, const ExpectedMove& a, const ExpectedMove& d,
                         double tolerance);
 

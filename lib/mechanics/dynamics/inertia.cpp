@@ -67,6 +67,7 @@ Inertia::Inertia(const Assembler& body, InertiaOptions options)
     C_values_ = Mass{*damping_, 0}.in_pattern(body_.pattern(), dofs);
   }
   translates_ = {true, true, true};
+  whole_ = dofs.tie.empty();
   for (std::size_t i = 0; i < dofs.tie.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       if (dofs.tie[i].T.col(k) != Vec3::Unit(k)) translates_[k] = false;
@@ -96,6 +97,14 @@ MotionState Inertia::at_start() const {
     const Vec3 arm = body_.mesh().X[i] - options_.spin_centre;
     const Vec3 v = options_.velocity + options_.spin.cross(arm);
     start.v.segment<3>(3 * i) = own_movement(dofs, i) * v;
+  }
+  for (const MovingBody& moving : options_.bodies) {
+    for (int node : moving.nodes) {
+      if (!moves_itself(body_, node)) continue;
+      const Vec3 arm = body_.mesh().X[static_cast<std::size_t>(node)] - moving.spin_centre;
+      start.v.segment<3>(3 * node) =
+          own_movement(dofs, node) * (moving.velocity + moving.spin.cross(arm));
+    }
   }
   for (const Prescribed& p : dofs.prescribed) start.v[p.dof] = p.rate(0) / options_.seconds;
 
@@ -244,34 +253,6 @@ VecX Inertia::end_of(const VecX& u) const {
   return u;
 }
 
-// The rigid motion closest to w in the norm of the mass, at positions x; of a body whose nodes are
-// tied, the translations that these allow.
-VecX Inertia::rigid_part(const VecX& x, const VecX& w) const {
-  const bool turns = body_.dofs().tie.empty();
-  MatX fields = MatX::Zero(w.size(), 6);
-  for (int i = 0; i < body_.mesh().n_nodes(); ++i) {
-    if (!moves_itself(body_, i)) continue;
-    for (int k = 0; k < 3; ++k) {
-      if (translates_[k]) fields(3 * i + k, k) = 1;
-      if (!turns) continue;
-      const Vec3 turned = Vec3::Unit(k).cross(Vec3(x.segment<3>(3 * i)));
-      fields.block<3, 1>(3 * i, 3 + k) = turned;
-    }
-  }
-  const MatX M_fields = mass_.M * fields;
-  const MatX A = fields.transpose() * M_fields;
-  return fields * A.completeOrthogonalDecomposition().solve(M_fields.transpose() * w);
-}
-
-VecX Inertia::projection(const VecX& u_m) const {
-  const VecX du = 2 * (u_m - u0_);
-  VecX x = u_m;
-  for (int i = 0; i < body_.mesh().n_nodes(); ++i) x.segment<3>(3 * i) += body_.mesh().X[i];
-  const VecX d = mass_.M * (du - rigid_part(x, du));
-  if (!(d.dot(du) > 1e-20 * du.dot(mass_.M * du))) return VecX::Zero(du.size());
-  return d;
-}
-
 MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const {
   MotionState end;
   const double moved = travel1 - travel0_;
@@ -326,6 +307,42 @@ Vec3 Inertia::momentum(const MotionState& motion) const {
   for (Eigen::Index i = 0; i < Mv.size(); i += 3) sum += Mv.segment<3>(i);
   for (int k = 0; k < 3; ++k) {
     if (!translates_[k]) sum[k] = 0;  // of the parts that symmetry adds, the sum vanishes
+  }
+  return sum;
+}
+
+// Bodies share no node, so the columns of M at the nodes of one have entries at its nodes only.
+Vec3 Inertia::momentum(const MotionState& motion, const MovingBody& body) const {
+  Vec3 sum = Vec3::Zero();
+  for (int node : body.nodes) {
+    for (int k = 0; k < 3; ++k) {
+      const int dof = 3 * node + k;
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass_.M, dof); entry; ++entry) {
+        if (translates_[k]) sum[k] += entry.value() * motion.v[entry.row()];
+      }
+    }
+  }
+  return sum;
+}
+
+double Inertia::mass_of(const MovingBody& body) const {
+  double sum = 0;
+  for (int node : body.nodes) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(mass_.M, 3 * node); entry; ++entry) {
+      sum += entry.value();
+    }
+  }
+  return sum;
+}
+
+// Of a part or a section, the components that symmetry keeps from vanishing are not known here.
+Vec3 Inertia::angular_momentum(const VecX& u, const MotionState& motion) const {
+  Vec3 sum = Vec3::Zero();
+  if (!whole_) return sum;
+  const VecX Mv = mass_.M * motion.v;
+  for (int i = 0; i < body_.mesh().n_nodes(); ++i) {
+    const Vec3 x = body_.mesh().X[i] + u.segment<3>(3 * i);
+    sum += x.cross(Vec3(Mv.segment<3>(3 * i)));
   }
   return sum;
 }

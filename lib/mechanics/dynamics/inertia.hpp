@@ -13,10 +13,10 @@
 //                        am = (2 rho_inf - 1) / (rho_inf + 1),  af = rho_inf / (rho_inf + 1)
 //                        gamma = 1/2 - am + af,  beta = (1 - am + af)^2 / 4
 //                      second order; rho_inf is what is left of the highest frequencies in a step
-//   energy_momentum    [ST92]: balance in the middle of the increment, u_m = (u0 + u1)/2, which is its
-//                      unknown; a force along M (u1 - u0 - rigid part) makes the work of the internal
-//                      forces exactly the change of energy ([GO96], for the whole body). Keeps the
-//                      energy of a body that is held
+//   energy_momentum    [ST92], [GO96]: balance in the middle of the increment, u_m = (u0 + u1)/2,
+//                      which is its unknown, with internal forces whose work is exactly the change of
+//                      energy (element/conserving_solid.hpp). Second order; keeps energy and angular
+//                      momentum
 //   theta              [FJCM05]: impulses instead of accelerations,
 //                        M (v1 - v0) = h ((1 - xi) F0 + xi F1) + h R,  u1 = u0 + h ((1 - theta) v0 + theta v1)
 //                      F without R, which is the mean reaction of the increment
@@ -25,6 +25,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/tensor/types.hpp"
@@ -36,6 +37,15 @@ namespace langer {
 
 enum class Scheme { generalised_alpha, energy_momentum, theta };
 constexpr auto names(Scheme) { return std::array{"generalised_alpha", "energy_momentum", "theta"}; }
+
+// One of several bodies that share no node, and how it moves at the beginning.
+struct MovingBody {
+  std::string name;
+  std::vector<int> nodes;
+  Vec3 velocity = Vec3::Zero();  // [mm/s]
+  Vec3 spin = Vec3::Zero();      // [1/s]
+  Vec3 spin_centre = Vec3::Zero();
+};
 
 struct InertiaOptions {
   std::vector<double> density;  // by body [t/mm3]
@@ -49,9 +59,10 @@ struct InertiaOptions {
   Vec3 velocity = Vec3::Zero();  // of the body at the beginning [mm/s]
   Vec3 spin = Vec3::Zero();      // of the body at the beginning [1/s]
   Vec3 spin_centre = Vec3::Zero();
-  double travel_mass = 0;      // of an indenter with inertia [t]
-  double travel_velocity = 0;  // along its direction [mm/s]
-  double travel_weight = 0;    // along its direction [N]
+  std::vector<MovingBody> bodies;  // several, each with a velocity of its own; empty: one
+  double travel_mass = 0;          // of an indenter with inertia [t]
+  double travel_velocity = 0;      // along its direction [mm/s]
+  double travel_weight = 0;        // along its direction [N]
   std::vector<char> massless;  // by node: the mass of contact nodes is moved inwards; empty: none
   double seconds = 1;          // of the path
 };
@@ -72,7 +83,8 @@ class Inertia : public AddedTerm {
   MotionState at_start() const;
   // An increment of `seconds` from there.
   void begin(const VecX& u, double travel, const MotionState& motion, double seconds);
-  // What an inertial motion adds to the displacements of free dofs until the unknown is found.
+  // What the velocity at the beginning adds to the displacements of free dofs until the unknown is
+  // found.
   VecX predicted() const;
   double predicted_travel() const;
 
@@ -87,17 +99,18 @@ class Inertia : public AddedTerm {
 
   // The displacements at the end, of the unknown of the scheme.
   VecX end_of(const VecX& u) const;
-  // energy_momentum: the direction of the force that makes the work of the internal forces that of
-  // the change of energy, M (u1 - u0 - rigid part); (3 n). Zero for a rigid motion.
-  VecX projection(const VecX& u_m) const;
 
   // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
   MotionState end(const VecX& u1, double travel1, const VecX& net) const;
 
   double at_start_kinetic() const { return kinetic_at_start_; }  // [N mm]
   double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
-  Vec3 momentum(const MotionState& motion) const;                // of the body [N s]
-  double work_of_gravity(const VecX& du, double dtravel) const;  // [N mm]
+  Vec3 momentum(const MotionState& motion) const;                // of all bodies [N s]
+  Vec3 momentum(const MotionState& motion, const MovingBody& body) const;
+  double mass_of(const MovingBody& body) const;  // [t]
+  // Of all bodies at displacements u, about the origin [N mm s].
+  Vec3 angular_momentum(const VecX& u, const MotionState& motion) const;
+  double work_of_gravity(const VecX& du, double dtravel) const;              // [N mm]
   double damped(const MotionState& before, const MotionState& after) const;  // [N mm]
   // Error of displacement in the increment, per time and in the norm of the kinetic energy, over
   // the speed that belongs to `energy` [ZX91].
@@ -106,7 +119,6 @@ class Inertia : public AddedTerm {
   double force_scale() const { return (mass_.M * acceleration_).norm(); }
 
  private:
-  VecX rigid_part(const VecX& x, const VecX& w) const;
   VecX acceleration_at(const VecX& u) const;
   VecX velocity_at(const VecX& u) const;
 
@@ -118,6 +130,7 @@ class Inertia : public AddedTerm {
   VecX weight_;                                         // M g (3 n)
   std::vector<char> massless_;                          // by dof
   std::array<bool, 3> translates_{};  // ties allow a translation of the body along an axis
+  bool whole_ = true;                 // nothing is tied: the body is not a part or a section
 
   // of the increment
   double h_ = 1;

@@ -1,90 +1,16 @@
 #include "mechanics/element/solid.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/voigt.hpp"
 #include "mechanics/element/dilatation.hpp"
+#include "mechanics/element/point_kinematics.hpp"
 
 namespace langer {
 
 namespace {
-
-template <int n>
-struct Sizes {
-  using Gradient = Eigen::Matrix<double, n, 3>;
-  using Vec = Eigen::Matrix<double, 3 * n, 1>;
-  using Mat = Eigen::Matrix<double, 3 * n, 3 * n>;
-  using Strain = Eigen::Matrix<double, 6, 3 * n>;
-};
-
-// dE = B du, engineering shear: row p = ij of node a, direction k is F_ki dN_j + F_kj dN_i
-template <int n>
-typename Sizes<n>::Strain strain_operator(const Mat3& F, const typename Sizes<n>::Gradient& dN) {
-  typename Sizes<n>::Strain B;
-  for (int a = 0; a < n; ++a)
-    for (int k = 0; k < 3; ++k)
-      for (int p = 0; p < 6; ++p) {
-        const int i = voigt_i[p];
-        const int j = voigt_j[p];
-        if (p < 3) {
-          B(p, 3 * a + k) = F(k, i) * dN(a, i);
-        } else {
-          B(p, 3 * a + k) = F(k, i) * dN(a, j) + F(k, j) * dN(a, i);
-        }
-      }
-  return B;
-}
-
-// dJ/du of one point: cofactor of F contracted with grad(du)
-template <int n>
-typename Sizes<n>::Vec dilatation_gradient(const Mat3& F, const typename Sizes<n>::Gradient& dN) {
-  Mat3 cof;
-  cof.col(0) = F.col(1).cross(F.col(2));
-  cof.col(1) = F.col(2).cross(F.col(0));
-  cof.col(2) = F.col(0).cross(F.col(1));
-  const typename Sizes<n>::Gradient g = dN * cof.transpose();
-  typename Sizes<n>::Vec v;
-  for (int a = 0; a < n; ++a)
-    for (int i = 0; i < 3; ++i) v[3 * a + i] = g(a, i);
-  return v;
-}
-
-template <int n, class Mat>
-void add_geometric(const typename Sizes<n>::Gradient& dN, const Vec6& S, double w, Mat& K) {
-  const Eigen::Matrix<double, n, n> G = w * (dN * tensor(S) * dN.transpose());
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b)
-      for (int i = 0; i < 3; ++i) K(3 * a + i, 3 * b + i) += G(a, b);
-}
-
-double mode(const ElementGeometry& geometry, int g, int k) {
-  if (k == 0) return 1;
-  return geometry.mode[g][k];
-}
-
-// n nodes; sizes known to the compiler
-template <int n>
-struct GaussPoints {
-  std::vector<Mat3> F;
-  std::vector<double> J_minus_1;
-  std::vector<typename Sizes<n>::Vec> dJ;
-  std::vector<typename Sizes<n>::Gradient> dN;
-  double J_min = 1e300;
-
-  GaussPoints(const ElementGeometry& geometry, const ElementNodes& u) {
-    for (int g = 0; g < geometry.n_gauss(); ++g) {
-      const Mat3 H = displacement_gradient(u, geometry.dN_dX[g]);
-      F.push_back(Mat3::Identity() + H);
-      J_minus_1.push_back(volume_change(H));
-      J_min = std::min(J_min, 1 + J_minus_1[g]);
-      dN.push_back(geometry.dN_dX[g]);
-      dJ.push_back(dilatation_gradient<n>(F[g], dN[g]));
-    }
-  }
-};
 
 // dilatations and pressures of the whole cell: their energy, force and tangent
 template <int n>
@@ -98,7 +24,7 @@ ModalVolume<double> add_modal(const Material& material, double local,
     double& t = out.J_minus_1[k];
     VecX& b = out.dJ_du[k];
     for (int g = 0; g < geometry.n_gauss(); ++g) {
-      const double w = geometry.w[g] * mode(geometry, g, k);
+      const double w = geometry.w[g] * dilatation_mode(geometry, g, k);
       t += w * at.J_minus_1[g];
       b += w * at.dJ[g];
     }
@@ -159,7 +85,7 @@ bool solid_of(Formulation formulation, const Material& material, double local,
     out.W += w * U.W;
     S += U.dW * J * Ci;
     for (int k = 0; k < n_p && modal; ++k)
-      p_K += mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
+      p_K += dilatation_mode(geometry, g, k) * (p_tangent ? p_tangent[k] : volume.p[k]);
     if (!modal && p_tangent) p_K = p_tangent[g];
     const typename Sizes<n>::Strain B = strain_operator<n>(at.F[g], at.dN[g]);
     f.noalias() += w * (B.transpose() * S);
@@ -242,13 +168,13 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
     states[g].J = 1 + J_minus_1;
     if (!modal) states[g].pressure = volume_energy(material.volume, J_minus_1).dW;
     for (int k = 0; k < n_p && modal; ++k)
-      t[k] += geometry.w[g] * mode(geometry, g, k) * J_minus_1 / geometry.V;
+      t[k] += geometry.w[g] * dilatation_mode(geometry, g, k) * J_minus_1 / geometry.V;
   }
   std::array<double, n_modes> p{};
   if (modal) pressures(material.volume, true, geometry, n_p, t.data(), p.data());
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
-    for (int k = 0; k < n_p && modal; ++k) s.pressure += mode(geometry, g, k) * p[k];
+    for (int k = 0; k < n_p && modal; ++k) s.pressure += dilatation_mode(geometry, g, k) * p[k];
     Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
     if (!branches.empty()) S += branches[static_cast<std::size_t>(g)];
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();

@@ -72,8 +72,24 @@ void LinearSolver::State::order_last() {
   L = cholmod_analyze_p(A, order.data(), nullptr, 0, &common);
   if (!L) return;
   // CHOLMOD's postordering may permute the last rows among themselves. If the matrix is that of
-  // several unconnected bodies, it may also move them from the end.
+  // several unconnected bodies, it orders body by body. Then the last rows of all bodies are moved
+  // to the end once more: rows keep their order otherwise, so that the supernodes stay as they are,
+  // and another postordering is not needed.
   const int* permutation = static_cast<int*>(L->Perm);
+  const auto is_last = [&](int row) {
+    return place_of[row] >= 0;
+  };
+  if (!std::all_of(permutation + (n - m), permutation + n, is_last)) {
+    order.assign(permutation, permutation + n);
+    std::stable_partition(order.begin(), order.end(), [&](int row) { return !is_last(row); });
+    cholmod_free_factor(&L, &common);
+    const int postorder = common.postorder;
+    common.postorder = 0;
+    L = cholmod_analyze_p(A, order.data(), nullptr, 0, &common);
+    common.postorder = postorder;
+    if (!L) return;
+    permutation = static_cast<int*>(L->Perm);
+  }
   trailing = !last.empty();
   trailing_order.resize(m);
   for (int i = 0; i < m; ++i) {

@@ -76,7 +76,8 @@ bool overlap_of(const QuadNodes& own, const QuadNodes& other, const VecX& x, Fac
   return true;
 }
 
-// Whether two facets may touch at all: they face each other, and are near.
+// Whether two facets may touch at all: they face each other, and are near. Two places of one
+// surface touch from outside only: what is far behind a facet is the other side of a thin body.
 bool may_touch(const SurfaceContact& contact, int own, int other, const VecX& x) {
   const QuadNodes& a = contact.own[static_cast<std::size_t>(own)];
   const QuadNodes& b = contact.other[static_cast<std::size_t>(other)];
@@ -92,7 +93,8 @@ bool may_touch(const SurfaceContact& contact, int own, int other, const VecX& x)
     low = std::min(low, away);
     high = std::max(high, away);
   }
-  return low < contact.reach && high > -contact.reach;
+  const double behind = contact.touches_itself() ? contact.reach / 6 : contact.reach;
+  return low < contact.reach && high > -behind;
 }
 
 void set_weights(MortarFacet& facet) {
@@ -124,7 +126,7 @@ std::vector<MortarFacet> mortar_facets(const SurfaceContact& contact, const VecX
     MortarFacet facet;
     facet.own = static_cast<int>(e);
     for (int m : search.meeting(box_of(own, x, contact.reach))) {
-      if (!may_touch(contact, facet.own, m, x)) continue;
+      if (!contact.may_pair(facet.own, m) || !may_touch(contact, facet.own, m, x)) continue;
       FacetOverlap overlap;
       overlap.other = m;
       const QuadNodes& other = contact.other[static_cast<std::size_t>(m)];

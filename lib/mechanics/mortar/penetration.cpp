@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "mechanics/mortar/facet_search.hpp"
 
@@ -39,8 +39,27 @@ double depth_below(const QuadNodes& facet, const VecX& x, const Vec3& point, dou
   return least;
 }
 
-double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNodes>& facets,
-               const VecX& x, double reach) {
+Vec3 outward(const QuadNodes& f, const VecX& x) {
+  const Vec3 a = position(x, f[2]) - position(x, f[0]);
+  const Vec3 b = position(x, f[3]) - position(x, f[1]);
+  return a.cross(b).normalized();
+}
+
+// Whether a node may be inside a facet of its own surface: the facet is not around the node, and
+// faces every facet at the node.
+bool may_be_inside(const SurfaceContact& contact, const std::vector<int>& at_node, int facet,
+                   const VecX& x) {
+  const Vec3 n = outward(contact.own[static_cast<std::size_t>(facet)], x);
+  for (int f : at_node) {
+    const auto& near = contact.neighbours[static_cast<std::size_t>(f)];
+    if (std::binary_search(near.begin(), near.end(), facet)) return false;
+    if (n.dot(outward(contact.own[static_cast<std::size_t>(f)], x)) > -0.2) return false;
+  }
+  return true;
+}
+
+double deepest(const SurfaceContact& contact, const std::vector<QuadNodes>& nodes_of,
+               const std::vector<QuadNodes>& facets, const VecX& x, double reach) {
   std::vector<BoundingBox> boxes;
   for (const QuadNodes& facet : facets) {
     BoundingBox box{position(x, facet[0]), position(x, facet[0])};
@@ -51,12 +70,14 @@ double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNod
     boxes.push_back(box);
   }
   const FacetSearch search(boxes);
-  std::set<int> nodes;
-  for (const QuadNodes& facet : nodes_of) nodes.insert(facet.begin(), facet.end());
+  std::map<int, std::vector<int>> nodes;
+  for (std::size_t f = 0; f < nodes_of.size(); ++f)
+    for (int node : nodes_of[f]) nodes[node].push_back(static_cast<int>(f));
   double deep = 0;
-  for (int node : nodes) {
+  for (const auto& [node, at_node] : nodes) {
     const Vec3 point = position(x, node);
     for (int f : search.meeting({point.array() - reach, point.array() + reach})) {
+      if (contact.touches_itself() && !may_be_inside(contact, at_node, f, x)) continue;
       const QuadNodes& facet = facets[static_cast<std::size_t>(f)];
       deep = std::max(deep, depth_below(facet, x, point, reach));
     }
@@ -68,8 +89,9 @@ double deepest(const std::vector<QuadNodes>& nodes_of, const std::vector<QuadNod
 
 double penetration(const SurfaceContact& contact, const VecX& x) {
   const double reach = contact.reach / 3;
-  return std::max(deepest(contact.own, contact.other, x, reach),
-                  deepest(contact.other, contact.own, x, reach));
+  const double of_own = deepest(contact, contact.own, contact.other, x, reach);
+  if (contact.touches_itself()) return of_own;
+  return std::max(of_own, deepest(contact, contact.other, contact.own, x, reach));
 }
 
 }  // namespace langer

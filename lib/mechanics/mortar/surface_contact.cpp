@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "mechanics/mesh/facets.hpp"
@@ -52,6 +53,73 @@ SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& m
   contact.nodes.assign(nodes.begin(), nodes.end());
   contact.all_nodes.assign(all.begin(), all.end());
   contact.reach = 3 * longest;
+  return contact;
+}
+
+bool SurfaceContact::may_pair(int own_facet, int other_facet) const {
+  if (!touches_itself()) return true;
+  const auto a = static_cast<std::size_t>(own_facet);
+  const auto b = static_cast<std::size_t>(other_facet);
+  if (rank[a] >= rank[b]) return false;
+  return !std::binary_search(neighbours[a].begin(), neighbours[a].end(), other_facet);
+}
+
+namespace {
+
+// Facets by their place along the longest direction of the surface.
+std::vector<int> ranks_along(const std::vector<QuadNodes>& facets, const Mesh& mesh) {
+  std::vector<Vec3> middles;
+  for (const QuadNodes& facet : facets) {
+    Vec3 sum = Vec3::Zero();
+    for (int node : facet) sum += mesh.X[static_cast<std::size_t>(node)];
+    middles.push_back(0.25 * sum);
+  }
+  Vec3 low = middles.front();
+  Vec3 high = low;
+  for (const Vec3& middle : middles) {
+    low = low.cwiseMin(middle);
+    high = high.cwiseMax(middle);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  std::vector<int> order(facets.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return middles[static_cast<std::size_t>(a)][axis] < middles[static_cast<std::size_t>(b)][axis];
+  });
+  std::vector<int> rank(facets.size());
+  for (std::size_t place = 0; place < order.size(); ++place)
+    rank[static_cast<std::size_t>(order[place])] = static_cast<int>(place);
+  return rank;
+}
+
+// By facet, those that share a node with it or with one that shares a node with it.
+std::vector<std::vector<int>> facets_around(const std::vector<QuadNodes>& facets) {
+  std::map<int, std::vector<int>> at_node;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (int node : facets[f]) at_node[node].push_back(static_cast<int>(f));
+  const auto ring = [&](const std::set<int>& of) {
+    std::set<int> more;
+    for (int f : of)
+      for (int node : facets[static_cast<std::size_t>(f)])
+        more.insert(at_node[node].begin(), at_node[node].end());
+    return more;
+  };
+  std::vector<std::vector<int>> around;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const std::set<int> near = ring(ring({static_cast<int>(f)}));
+    around.emplace_back(near.begin(), near.end());
+  }
+  return around;
+}
+
+}  // namespace
+
+SurfaceContact self_contact(const std::string& name, double mu, const Mesh& mesh,
+                            const std::vector<Facet>& facets) {
+  SurfaceContact contact = surface_contact(name, mu, mesh, facets, facets);
+  contact.rank = ranks_along(contact.own, mesh);
+  contact.neighbours = facets_around(contact.own);
   return contact;
 }
 

@@ -15,6 +15,11 @@
 //
 // Dual functions are those of the covered part of a facet [CB11]. Where that part
 // is small, they go over into the usual shape functions, which stay positive.
+//
+// A surface that touches itself is both sides. Each pair of facets counts once: of two facets the
+// one that comes first along the longest direction of the surface at rest is the non-mortar one, so
+// that of the two flanks of a fold one is the non-mortar side as a whole. Facets around a facet
+// never touch it: those that share a node with it, and those that share one with these.
 #pragma once
 
 #include <array>
@@ -42,11 +47,20 @@ struct SurfaceContact {
   std::vector<int> nodes;        // of `own`, ascending: the candidates
   std::vector<int> all_nodes;    // of both sides, ascending
   double reach = 0;              // facets further from each other do not touch [mm]
+  // of a surface that touches itself, by facet; empty: two surfaces
+  std::vector<int> rank;                     // place along the surface at rest
+  std::vector<std::vector<int>> neighbours;  // facets around it, ascending
+  bool touches_itself() const { return !rank.empty(); }
+  // Whether a facet of `own` may touch one of `other`, by where they are on the surface.
+  bool may_pair(int own_facet, int other_facet) const;
 };
 
 // facets: of hex8; the reach follows from their size
 SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& mesh,
                                const std::vector<Facet>& own, const std::vector<Facet>& other);
+// The same of one surface that may touch itself.
+SurfaceContact self_contact(const std::string& name, double mu, const Mesh& mesh,
+                            const std::vector<Facet>& facets);
 
 struct Weight {
   int node = 0;

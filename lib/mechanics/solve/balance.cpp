@@ -98,7 +98,6 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   if (std::exchange(unsettled_, false)) equilibrium_.pressures_from(u);
   out.admissible = equilibrium_.assemble(u, with_tangent, &direction);
   K_current_ = with_tangent;
-  if (out.admissible && options_.inertia && options_.inertia->conserves()) balance_middle(u);
   if (!out.admissible) {
     if (equilibrium_.J_min() > 0) {
       out.missing =
@@ -113,6 +112,13 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
   out.residual = free_residual().norm();
   out.reference = force_scale();
   out.floor = 3 * equilibrium_.rounding_floor();
+  if (equilibrium_.conserves()) {
+    // An increment has the rounding of both of its ends; of a body that turns, displacements are as
+    // large as the body, and what rounds is not only the volume, but also 4 M (u_m - u0) / h^2.
+    const VecX rounded = std::numeric_limits<double>::epsilon() * u.cwiseAbs();
+    out.floor = 2 * (out.floor + scale_.least_force) +
+                on_free_rows(options_.inertia->tangent_times(rounded)).norm();
+  }
   if (!contact_law_holds(u))
     out.missing = "the contact law does not hold";
   else if (controlled_ >= 0 && !force_is_given())
@@ -143,9 +149,12 @@ bool Statics::slips_away() const {
   return in_the_way;
 }
 
-// Whether elements keep their orientation: a cheap test before a state is assembled.
+// Whether elements keep their orientation: a cheap test before a state is assembled. Of an
+// increment that is solved in its middle, at its end.
 bool Statics::admissible(const VecX& u) const {
-  return u.allFinite() && equilibrium_.smallest_J(u) > 0.02;
+  if (!u.allFinite()) return false;
+  if (equilibrium_.conserves()) return equilibrium_.smallest_J(2 * u - now_.u) > 0.02;
+  return equilibrium_.smallest_J(u) > 0.02;
 }
 
 // Called before u becomes u + step du: pressures, travel and contact reactions follow. Reactions

@@ -151,24 +151,23 @@ class Law {
     const VecX b = without_change(travel, move);
     VecX q = c_.q;
     if (c_.start_moves.size() > 0) q = VecX(c_.q - travel * c_.start_moves);
-    Answer answer{VecX(c_.move.size()), r};
+    Answer direct{VecX(c_.move.size()), r};
     if (direct_) {
-      take(solve_local({slipping_, q + c_.slipping(move - W_r_ * b), c_.mu}, answer.r), answer);
-      if (!c_.follows) answer.s = answer.r - c_.present;
-      if (answer.solved && c_.follows) answer.s = lu_.solve(answer.r - b);
-      if (answer.solved || !c_.follows) return answer;
+      // W_r may be indefinite, and the law have several solutions: the one next to the present
+      // reactions continues the path.
+      LocalOptions options;
+      options.next_to_start = c_.follows;
+      take(solve_local({slipping_, q + c_.slipping(move - W_r_ * b), c_.mu}, direct.r, options),
+           direct);
+      if (!c_.follows) direct.s = direct.r - c_.present;
+      if (direct.solved && c_.follows) direct.s = lu_.solve(direct.r - b);
+      if (!c_.follows || (direct.solved && near_present(direct))) return direct;
     }
-    answer.s =
-        VecX::Zero(c_.move.size());  // W_r indefinite, or none: stable only through its contacts
-    const LocalReport local =
-        solve_supported({c_.slipping(c_.W), A_, q + c_.slipping(move), b, c_.mu}, answer.s);
-    answer.r = b + A_ * answer.s;
-    for (std::size_t p = 0; p < c_.E.size();
-         ++p)  // what rounding leaves at an open candidate would be a reaction across a gap
-      if (local.status[p] == ContactStatus::open)
-        answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
-    take(local, answer);
-    return answer;
+    // A solution far from the present reactions, or none, as for a body that is stable only through
+    // its contacts.
+    const Answer next = from_present(q + c_.slipping(move), b);
+    if (direct.solved && !(next.solved && 2 * next.s.norm() < direct.s.norm())) return direct;
+    return next;
   }
 
   // What the indenter under force control then bears along its direction [N].
@@ -193,6 +192,22 @@ class Law {
   }
 
  private:
+  // Reactions rarely grow beyond three times the present ones in one correction.
+  bool near_present(const Answer& answer) const { return answer.s.norm() <= 3 * c_.present.norm(); }
+
+  // Newton's method for the forces on the supported body, from no change on.
+  Answer from_present(const VecX& q, const VecX& b) const {
+    Answer answer{VecX::Zero(c_.move.size()), {}};
+    const LocalReport local = solve_supported({c_.slipping(c_.W), A_, q, b, c_.mu}, answer.s);
+    answer.r = b + A_ * answer.s;
+    // what rounding leaves at an open candidate would be a reaction across a gap
+    for (std::size_t p = 0; p < c_.E.size(); ++p)
+      if (local.status[p] == ContactStatus::open)
+        answer.r.segment<3>(3 * static_cast<Eigen::Index>(p)).setZero();
+    take(local, answer);
+    return answer;
+  }
+
   // reactions without a force change on the body
   VecX without_change(double travel, const VecX& move) const {
     VecX b = c_.present;

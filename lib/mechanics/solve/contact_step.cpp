@@ -168,25 +168,41 @@ std::optional<VecX> Statics::solve_with_contact(const VecX& rhs) {
   return with_prescribed_dofs(answer->move);
 }
 
-// Follower pressures with a free edge add a skew part S to the symmetric tangent K. The factor of K
-// is a good preconditioner: (I - K^-1 S) du = K^-1 rhs converges in a few iterations.
-VecX Statics::solve_with_follower_loads(const VecX& rhs) {
+// Follower pressures with a free edge and the forces of an energy-momentum scheme have a skew part
+// of the stiffness, which the symmetric tangent omits.
+bool Statics::omits_stiffness() const {
+  return equilibrium_.loads().follow() || equilibrium_.conserves();
+}
+
+// That part times du, on the side of the internal forces: (3 n) [N].
+VecX Statics::omitted_stiffness(const VecX& du) const {
+  VecX out = VecX::Zero(du.size());
+  if (equilibrium_.loads().follow()) out -= equilibrium_.skew_pressures(u_, du);
+  if (equilibrium_.conserves()) out += equilibrium_.conserving_skew(du);
+  return out;
+}
+
+// The factor of K is a good preconditioner of K + S with the skew part S: (I + K^-1 S) du = K^-1
+// rhs converges in a few iterations.
+VecX Statics::solve_nonsymmetric(const VecX& rhs) {
   // Share of the correction that is left. What a correction leaves of the residual is more than
-  // this: 0.03 to 0.3 by an old tangent, and by a new one what the step is too long for.
-  const double accurate = again_ ? 1e-2 : 1e-3;
-  if (!equilibrium_.loads().follow()) return factor_.linear().solve(rhs);
-  return solve_near_factor(
-      rhs + on_free_rows(equilibrium_.skew_pressures(u_, remaining_prescribed(u_))), accurate);
+  // this: 0.03 to 0.3 by an old tangent, and by a new one what the step is too long for. A scheme
+  // that keeps the energy is solved to rounding, and has a new tangent each time.
+  double accurate = again_ ? 1e-2 : 1e-3;
+  if (equilibrium_.conserves()) accurate = 1e-7;
+  if (!omits_stiffness()) return factor_.linear().solve(rhs);
+  return solve_near_factor(rhs - on_free_rows(omitted_stiffness(remaining_prescribed(u_))),
+                           accurate);
 }
 
 // The same where no prescribed dof moves.
 VecX Statics::solve_near_factor(const VecX& known, double accurate) {
   LinearSolver& linear = factor_.linear();
-  if (!equilibrium_.loads().follow()) return linear.solve(known);
+  if (!omits_stiffness()) return linear.solve(known);
   const auto product = [&](const VecX& x) {
     VecX du = VecX::Zero(u_.size());
     for (Eigen::Index row = 0; row < x.size(); ++row) du[equilibrium_.dofs().free[row]] = x[row];
-    return VecX(x - linear.solve(on_free_rows(equilibrium_.skew_pressures(u_, du))));
+    return VecX(x + linear.solve(on_free_rows(omitted_stiffness(du))));
   };
   return solve_near_identity(product, linear.solve(known), accurate, 40);
 }
@@ -252,11 +268,7 @@ std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   VecX move;
   if (contacts_.empty() && bodies_.empty()) {
     const Stopwatch watch(cost_.solve);
-    if (options_.inertia && options_.inertia->conserves()) {
-      move = solve_middle(rhs);
-    } else {
-      move = solve_with_follower_loads(rhs);
-    }
+    move = solve_nonsymmetric(rhs);
     if (bordered()) solve_border(move);
   } else {
     LinearSolver::Half half;

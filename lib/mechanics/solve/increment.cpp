@@ -5,6 +5,7 @@
 //   accept    u_{n+1} = u, with the reactions of contact and the state of viscous points and bonds
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mechanics/solve/statics.hpp"
@@ -113,7 +114,16 @@ void Statics::slip_from_touch(std::size_t k, const VecX& expected) {
   const IncrementMove move = increment_move(expected);
   for (int node : contacts_[k].nodes)
     u_start_[k].segment<3>(3 * node) =
-        slip_origin(contacts_[k], move.of(contacts_[k], node), gap_tolerance_);
+        slip_origin(contacts_[k], move.of(contacts_[k], node), slip_tolerance());
+}
+
+// The gap up to which a node slips from the beginning of an increment on, and not from its touch. A
+// body in motion has a velocity there: the law is that of the mean velocity in the increment
+// (Moreau, Jean), for nodes that touch within it, too. Measured from the touch, or where that was
+// not foreseen from the expected end, a node that goes on sliding would stick.
+double Statics::slip_tolerance() const {
+  if (options_.inertia) return std::numeric_limits<double>::infinity();
+  return gap_tolerance_;
 }
 
 IncrementMove Statics::increment_move(const VecX& expected) const {
@@ -127,7 +137,7 @@ bool Statics::starts_with_travel() const { return controlled_ >= 0 && controlled
 
 std::vector<Vec3> Statics::start_moves() const {
   if (!starts_with_travel()) return {};
-  return slip_origin_change_with_travel(*controlled(), increment_move(expected_), gap_tolerance_);
+  return slip_origin_change_with_travel(*controlled(), increment_move(expected_), slip_tolerance());
 }
 
 double Statics::time_error() { return equilibrium_.end_increment(u_); }

@@ -9,6 +9,24 @@
 
 namespace langer {
 
+namespace {
+
+// How gap and normal at a place change with the number of a shape.
+struct ShapeRate {
+  double gap = 0;
+  Vec3 normal = Vec3::Zero();
+};
+
+ShapeRate shape_rate(const ParameterChange& change, std::size_t contact, const Vec3& x) {
+  if (change.shapes.empty() || !change.shapes[contact]) return {};
+  const ShapeChange& shape = *change.shapes[contact];
+  const ShapePoint less = shape_at(shape.less, x);
+  const ShapePoint more = shape_at(shape.more, x);
+  return {(more.gap - less.gap) / shape.width, (more.normal - less.normal) / shape.width};
+}
+
+}  // namespace
+
 // Linearises the accepted state once: the factor of its tangent, and the contact laws at the nodes
 // that touch. Every derivative then costs one solution.
 StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
@@ -41,6 +59,7 @@ void StateTangent::take_candidates() {
       Near n{k, i, linearise(contact, x, x0, c, c0, now.r[k][i]), {}, Vec3::Zero()};
       n.r = n.law.frame.transpose() * now.r[k][i];
       slip_.push_back(n.law.q.tail<2>().norm());
+      approach_.push_back(n.law.frame.col(0).dot((x - x0) - (c - c0)));
       near_.push_back(n);
       status_.push_back(status);
       pushed_ =
@@ -148,7 +167,8 @@ IncrementMove StateTangent::increment_move() const {
 }
 
 // Of the two states before; an indenter's travel in this increment is an unknown of its own.
-std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
+std::vector<Vec3> StateTangent::slip_of_history(const ParameterChange& change,
+                                                const StateDerivative& before,
                                                 const StateDerivative& earlier) const {
   std::vector<Vec3> out(near_.size(), Vec3::Zero());
   for (std::size_t p = 0; p < near_.size(); ++p) {
@@ -160,10 +180,11 @@ std::vector<Vec3> StateTangent::slip_of_history(const StateDerivative& before,
     const Vec3 d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
     const Vec3 d_c0 =
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
-    const ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
-    const Vec3 from = slip_origin_change(contact, increment_move().of(contact, node), d,
-                                         statics_.gap_tolerance_) -
-                      d_c0;
+    const ExpectedMove move = increment_move().of(contact, node);
+    ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
+    d.gap0 = shape_rate(change, n.contact, move.X + move.u0 - move.c0).gap;
+    d.gap = shape_rate(change, n.contact, move.X + move.u - move.c).gap;
+    const Vec3 from = slip_origin_change(contact, move, d, statics_.gap_tolerance_) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }
@@ -180,6 +201,28 @@ Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near
   return near.law.frame.transpose() * moved;
 }
 
+// What another shape changes where nothing moves: the gap, and with the normal the frame, in which
+// the slip is seen and with which the reaction turns (dt = -(t.dn) n, as in linearise()).
+StateTangent::ShapeEffect StateTangent::shape_effect(const ParameterChange& change,
+                                                     std::size_t p) const {
+  ShapeEffect effect;
+  if (change.shapes.empty()) return effect;
+  const Near& n = near_[p];
+  const RigidContact& contact = statics_.contacts_[n.contact];
+  const BodyState& now = statics_.now_;
+  const int node = contact.nodes[n.candidate];
+  const Vec3 x =
+      statics_.equilibrium_.mesh().X[static_cast<std::size_t>(node)] + now.u.segment<3>(3 * node);
+  const ShapeRate rate =
+      shape_rate(change, n.contact, x - indenter_displacement(contact, now.t, now.travel));
+  const Eigen::Vector2d turn = n.law.frame.rightCols<2>().transpose() * rate.normal;
+  effect.x[0] = rate.gap;
+  effect.x.tail<2>() = -approach_[p] * turn;
+  effect.r[0] = -n.r.tail<2>().dot(turn);
+  effect.r.tail<2>() = n.r[0] * turn;
+  return effect;
+}
+
 // How a parameter changes the contact laws themselves: by the slip that the states before have
 // left, by prescribed movements, and by the coefficient of friction.
 VecX StateTangent::right_hand_side(const ParameterChange& change,
@@ -190,6 +233,8 @@ VecX StateTangent::right_hand_side(const ParameterChange& change,
     const auto row = 3 * static_cast<Eigen::Index>(p);
     h.segment<3>(row) -= rows_[p].x * history[p] +
                          (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
+    const ShapeEffect shape = shape_effect(change, p);
+    h.segment<3>(row) -= rows_[p].x * shape.x - rows_[p].r * shape.r;
     double d_mu = 0;
     if (!change.mu.empty()) d_mu = change.mu[n.contact];
     if (d_mu == 0 || status_[p] != ContactStatus::slip) continue;
@@ -309,7 +354,8 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
   if (change.prescribed.size() > 0) out.u = change.prescribed;
   const VecX f = -on_free_rows(change);
   VecX rhs = f;
-  VecX h = near_.empty() ? VecX() : right_hand_side(change, slip_of_history(before, earlier));
+  VecX h =
+      near_.empty() ? VecX() : right_hand_side(change, slip_of_history(change, before, earlier));
   double size = rhs.norm();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {
@@ -343,8 +389,15 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     const auto position = [&](int node) {
       return Vec3(X[node] + statics_.now_.u.segment<3>(3 * node));
     };
+    const Vec3 c =
+        indenter_displacement(*statics_.controlled(), statics_.now_.t, statics_.now_.travel);
     const auto moved = [&](int node) {
-      return Vec3(out.u.segment<3>(3 * node));
+      Vec3 by = out.u.segment<3>(3 * node);
+      if (change.shapes.empty()) return by;
+      const Vec3 x = position(node) - c;
+      const auto contact = static_cast<std::size_t>(statics_.controlled_);
+      by += shape_rate(change, contact, x).gap * shape_at(statics_.controlled()->shape, x).normal;
+      return by;
     };
     out.travel = touch_travel_change(*statics_.controlled(), statics_.now_.t, statics_.now_.travel,
                                      position, moved);

@@ -33,6 +33,12 @@ struct StateDerivative {
   double travel = 0;  // of the indenter under force control
 };
 
+// An indenter whose number is a little less, or more, by `width` in all.
+struct ShapeChange {
+  Indenter less, more;
+  double width = 1;
+};
+
 // What a number changes where the state stands still; empty: nothing.
 struct ParameterChange {
   VecX f = {};                  // (3 n) of f_int less the forces
@@ -40,6 +46,7 @@ struct ParameterChange {
   VecX prescribed = {};         // (3 n) of prescribed dofs [mm], 0 elsewhere
   std::vector<Vec3> indenters =
       {};  // by contact: of its place [mm], whose orientation stands still
+  std::vector<std::optional<ShapeChange>> shapes = {};  // by contact: of its shape
 };
 
 class StateTangent {
@@ -78,8 +85,12 @@ class StateTangent {
       const VecX& last) const;  // movement of the candidates from that of the rows of factor.last()
   IncrementMove increment_move() const;  // that led to the accepted state
   // x' where the body stands still, and what friction itself changes
-  std::vector<Vec3> slip_of_history(const StateDerivative& before,
+  std::vector<Vec3> slip_of_history(const ParameterChange& change, const StateDerivative& before,
                                     const StateDerivative& earlier) const;
+  struct ShapeEffect {  // local: on gap and slip, and on the force of a reaction that turns
+    Vec3 x = Vec3::Zero(), r = Vec3::Zero();
+  };
+  ShapeEffect shape_effect(const ParameterChange& change, std::size_t p) const;
   Vec3 moved_against(const ParameterChange& change,
                      const Near& near) const;  // of prescribed dofs against the indenter, local
   VecX right_hand_side(const ParameterChange& change, const std::vector<Vec3>& history) const;
@@ -94,7 +105,9 @@ class StateTangent {
   bool solvable_ = false, pushed_ = false;  // an indenter under force control bears something
   std::vector<Near> near_;
   std::vector<ContactStatus> status_;
-  std::vector<double> slip_;     // length [mm]
+  std::vector<double> slip_;  // length [mm]
+  std::vector<double>
+      approach_;  // of the increment's movement against the indenter, along the normal
   std::vector<double> typical_;  // compliance that scales the rows
   Condensed c_;
   std::vector<Rows> rows_;

@@ -179,6 +179,7 @@ class Statics {
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& expected);
   IncrementMove increment_move(const VecX& expected) const;  // refers to `expected`
+  double slip_tolerance() const;                             // [mm]
   bool starts_with_travel() const;  // the slip of an indenter under force control
   std::vector<Vec3> start_moves()
       const;  // by its candidate, what the slip is measured from, per travel
@@ -190,7 +191,9 @@ class Statics {
   std::optional<VecX> solve_condensed(const VecX& rhs);
   std::optional<ContactChange> change_of_contact(const VecX& rhs, LinearSolver::Half& half);
   int level_of_increment(const BodyState& from, double t, double last_travel) const;
-  VecX solve_with_follower_loads(const VecX& rhs);
+  VecX solve_nonsymmetric(const VecX& rhs);
+  bool omits_stiffness() const;
+  VecX omitted_stiffness(const VecX& du) const;
   VecX solve_near_factor(const VecX& known, double accurate = 1e-6);
   std::optional<VecX> solve_with_contact(const VecX& rhs);
   VecX with_prescribed_dofs(const VecX& free) const;
@@ -220,17 +223,11 @@ class Statics {
                  const Vec3& c0) const;                        // the same of what turns with it
   std::vector<Vec3> indenters(double t, double travel) const;  // displacement of each
   void begin_motion(double seconds);
+  VecX predicted_move() const;
   void accept_motion();
-  // energy_momentum: the force s d that keeps the energy, and what its derivative needs
-  struct MiddleForce {
-    VecX d, change_of_force;  // (3 n); of internal forces from the middle to the end [N]
-    double work = 0;          // d . du; 0: no such force
-    double size = 0;          // s
-  };
-  void balance_middle(const VecX& u);
-  VecX solve_middle(const VecX& rhs);
   double work_from_outside(const VecX& du, const VecX& f_ext, const VecX& reactions,
                            const Reactions& r) const;
+  double work_of_friction(const VecX& u1, const VecX& du);
   VecX trial_reactions() const;
   double required_force() const;  // of the indenter under force control or with mass, on the body
   double force_falls() const;     // what that loses per travel
@@ -259,7 +256,6 @@ class Statics {
   double extrapolated_ = 0;  // of the movement of the last increment, with which this one was begun
   VecX expected_;            // u that it was begun with, where the start of slip follows the travel
   int controlled_ = -1;      // contact under force control
-  MiddleForce middle_;       // of the trial
   VecX f_ext_start_;         // of a body in motion: loads where the increment began (3 n) [N]
   double travel_ = 0, travel_next_ = 0;  // of it, on trial; and what the last linear solve adds
   Reactions r_, r_next_;                 // on trial; r_next_: what the last linear solve found

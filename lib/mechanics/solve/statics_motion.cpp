@@ -4,7 +4,8 @@
 //   accept   velocities and accelerations at the end, and the account of energies:
 //              kinetic + stored + viscous + damped  =  at the beginning + work from outside + balance
 //            Work from outside is that of supports, loads, weight and indenters, with friction as
-//            work that these take; `balance` is what the scheme gains or loses.
+//            work that these take, and of friction between deformable surfaces; `balance` is what
+//            the scheme gains or loses.
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace langer {
 void Statics::begin_motion(double seconds) {
   Inertia& inertia = *options_.inertia;
   inertia.begin(now_.u, now_.travel, now_.motion, seconds);
+  if (inertia.conserves()) equilibrium_.begin_conserving(now_.u);
   equilibrium_.load_to(now_.t);
   if (equilibrium_.loads().empty()) {
     equilibrium_.pressures_from(now_.u);
@@ -24,7 +26,7 @@ void Statics::begin_motion(double seconds) {
     f_ext_start_ = equilibrium_.f_ext();
   }
   equilibrium_.load_to(inertia.conserves() ? 0.5 * (now_.t + t_) : t_);
-  const VecX du = inertia.predicted();
+  const VecX du = predicted_move();
   if (options_.extrapolate && admissible(now_.u + du)) {
     equilibrium_.predict_pressures(du, 1);
     u_ += du;
@@ -32,42 +34,23 @@ void Statics::begin_motion(double seconds) {
   if (controlled_ >= 0 && controlled()->control->free()) travel_ += inertia.predicted_travel();
   if (controlled_ >= 0 && !controlled()->control->free()) move_to_touch();
   slip_from_touch();
+  if (!bodies_.empty())
+    bodies_.turn(equilibrium_.mesh().X, now_.u, u_ - now_.u, r_, contacts_.size());
   if (starts_with_travel()) expected_ = u_;
 }
 
-// Adds s d, s = (W1 - W0 - f . du) / (d . du), so that the internal forces do as much work as the
-// energy changes. The derivative of s is that of its numerator and of d . du,
-//   ds = (2 f1 - 2 f - K du - 4 s d) . du_m / (d . du),
-// with d itself taken as constant.
-void Statics::balance_middle(const VecX& u) {
+// Where the body goes with the mean velocity of the last increment. The velocity at its end serves
+// for the first one only: where a step is long beside the periods of the mesh, it alternates from
+// step to step, and pressures that follow from it mean nothing.
+VecX Statics::predicted_move() const {
   const Inertia& inertia = *options_.inertia;
-  middle_ = {};
-  const VecX du = 2 * (u - now_.u);
-  const VecX d = inertia.projection(u);
-  const double work = d.dot(du);
-  if (work == 0) return;
-  const VecX f = equilibrium_.f_int() - inertia.last_force();
-  const Assembler::Forces end = equilibrium_.elastic_at(inertia.end_of(u));
-  const double s = (end.W - now_.motion.stored - f.dot(du)) / work;
-  equilibrium_.add_to_forces(s * d);
-  middle_ = {d, end.f - f, work, s};
-}
-
-// A correction with the derivative of that force, of rank one, by Sherman and Morrison's formula.
-VecX Statics::solve_middle(const VecX& rhs) {
-  LinearSolver& linear = factor_.linear();
-  VecX x = linear.solve(rhs);
-  if (middle_.work == 0) return x;
-  const VecX du = 2 * (u_ - now_.u);
-  const VecX K_du =
-      equilibrium_.K_times(on_free_rows(du)) - on_free_rows(options_.inertia->tangent_times(du));
-  const VecX d = on_free_rows(middle_.d);
-  const VecX g =
-      (on_free_rows(2 * middle_.change_of_force) - K_du - 4 * middle_.size * d) / middle_.work;
-  const VecX y = linear.solve(d);
-  const double denominator = 1 + g.dot(y);
-  if (std::abs(denominator) > 1e-3) x -= y * (g.dot(x) / denominator);
-  return x;
+  const double last = now_.t - before_.t;
+  if (!(last > 0)) return inertia.predicted();
+  double share = (t_ - now_.t) / last;
+  if (inertia.conserves()) share *= 0.5;
+  VecX du = VecX::Zero(now_.u.size());
+  for (int dof : equilibrium_.dofs().free) du[dof] = share * (now_.u[dof] - before_.u[dof]);
+  return du;
 }
 
 // The force that an indenter which is pushed, or has a mass, gives to the body at its travel.
@@ -117,6 +100,16 @@ double Statics::work_from_outside(const VecX& du, const VecX& f_ext, const VecX&
   return work;
 }
 
+// Of deformable surfaces, in the movement du to u1, as work_from_outside() of a rigid wall: what
+// they lose along their normal is a matter of the scheme.
+double Statics::work_of_friction(const VecX& u1, const VecX& du) {
+  const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  const std::size_t first = contacts_.size();
+  if (options_.inertia->uses_impulses()) return bodies_.work_of_friction(X, u1, du, r_, first);
+  const double at_start = bodies_.work_of_friction(X, now_.u, du, now_.r, first);
+  return 0.5 * (at_start + bodies_.work_of_friction(X, u1, du, r_, first));
+}
+
 double Statics::motion_error() const {
   const Inertia& inertia = *options_.inertia;
   const MotionState end = inertia.end(inertia.end_of(u_), travel_, VecX::Zero(u_.size()));
@@ -139,7 +132,6 @@ void Statics::accept_motion() {
   MotionState motion = inertia.end(u1, travel_, net);
   motion.reactions = reactions;
   motion.stored = equilibrium_.W();
-  if (inertia.conserves()) motion.stored = equilibrium_.elastic_at(u1).W;
 
   VecX f_ext;
   if (!equilibrium_.loads().empty()) f_ext = equilibrium_.f_ext();
@@ -150,6 +142,7 @@ void Statics::accept_motion() {
     work += work_from_outside(du, f_ext_start_, now_.motion.reactions, now_.r);
     work *= 0.5;
   }
+  if (!bodies_.empty()) work += work_of_friction(u1, du);
   work += inertia.work_of_gravity(du, travel_ - now_.travel);
   equilibrium_.accept_increment(now_.u, u1);
   motion.damped = now_.motion.damped + inertia.damped(now_.motion, motion);

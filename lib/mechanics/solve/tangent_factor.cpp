@@ -120,7 +120,9 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
   for (const RigidContact& contact : contacts) eliminate_last(dofs, contact.nodes);
   eliminate_last(dofs, further);
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
-  if (!last_.empty() && any_is_free(body.mesh(), dofs)) loose_ = node_stiffness(body);
+  // Inertia resists every motion.
+  if (body.added_term() || last_.empty()) return;
+  if (any_is_free(body.mesh(), dofs)) loose_ = node_stiffness(body);
 }
 
 void TangentFactor::eliminate_last(const Dofs& dofs, const std::vector<int>& nodes) {

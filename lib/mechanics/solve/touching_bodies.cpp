@@ -1,6 +1,7 @@
 #include "mechanics/solve/touching_bodies.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <set>
 
@@ -47,6 +48,8 @@ void TouchingBodies::add_forces(const std::vector<Vec3>& X, const VecX& u, const
 std::vector<ContactDefect> TouchingBodies::defects(const std::vector<Vec3>& X, const VecX& u,
                                                    const VecX& u0, const Reactions& r,
                                                    std::size_t first, double motion) {
+  // Bodies that only inertia moves stick to each other while both of them go far.
+  if (motion == 0) motion = (u - u0).lpNorm<Eigen::Infinity>();
   const VecX x = positions(X, u);
   const VecX x0 = positions(X, u0);
   const auto& averages = at(X, u);
@@ -54,6 +57,22 @@ std::vector<ContactDefect> TouchingBodies::defects(const std::vector<Vec3>& X, c
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     out.push_back(mortar_defect(surfaces_[s], averages[s], x, x0, r[first + s], motion));
   return out;
+}
+
+double TouchingBodies::work_of_friction(const std::vector<Vec3>& X, const VecX& u, const VecX& du,
+                                        const Reactions& r, std::size_t first) {
+  double work = 0;
+  const auto& averages = at(X, u);
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    if (surfaces_[s].mu == 0) continue;
+    for (const MortarNode& node : averages[s]) {
+      const Vec3& force = r[first + s][static_cast<std::size_t>(node.candidate)];
+      if (force.isZero(0)) continue;
+      const Vec3 moved = node.average(du);
+      work += force.dot(moved - node.normal * node.normal.dot(moved));
+    }
+  }
+  return work;
 }
 
 std::vector<double> TouchingBodies::penetrations(const std::vector<Vec3>& X, const VecX& u) const {
@@ -99,6 +118,9 @@ struct Rows {
     return static_cast<int>(n);
   }
 };
+
+using Sparse = Eigen::SparseMatrix<double>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 class Step {
  public:
@@ -256,9 +278,15 @@ class Step {
 
   // The movement d and the reactions r.
   bool solve(VecX& d, VecX& r, int& sweeps) {
-    const Eigen::Index columns = F_.rows();
-    const MatX FG = F_ * m_.G;
-    const MatX rest = MatX::Identity(columns, columns) - F_ * m_.C;
+    // A candidate moves few nodes, so that G, L and C are almost empty: products with them cost n^2
+    // times a few, where those of dense matrices cost n^3.
+    const Sparse G = m_.G.sparseView();
+    const SparseRows L = m_.L.sparseView();
+    const Sparse C = m_.C.sparseView();
+    const MatX FG = F_ * G;
+    MatX rest = F_ * C;
+    rest *= -1;
+    rest.diagonal().array() += 1;
     r = present_;
     if (r.size() == 0) {
       d = Lu(rest).solve(move_);
@@ -269,8 +297,8 @@ class Step {
       if (lu.rcond() > 1e-10) {
         const VecX free = lu.solve(move_);
         const MatX by_reactions = lu.solve_columns(FG);
-        const MatX W = m_.L * by_reactions;
-        const LocalReport report = solve_local({W, VecX(q_ + m_.L * free - W * present_), mu_}, r);
+        const MatX W = L * by_reactions;
+        const LocalReport report = solve_local({W, VecX(q_ + L * free - W * present_), mu_}, r);
         sweeps += report.sweeps;
         if (report.converged && r.allFinite()) {
           d = free + by_reactions * (r - present_);
@@ -278,23 +306,25 @@ class Step {
         }
       }
     }
-    return solve_with_springs_of_law(rest, FG, d, r, sweeps);
+    return solve_with_springs_of_law(L, rest, FG, d, r, sweeps);
   }
 
   // s = r + kappa L d in place of r
-  bool solve_with_springs_of_law(const MatX& rest, const MatX& FG, VecX& d, VecX& r, int& sweeps) {
-    const MatX W_alone = m_.L * FG;
+  bool solve_with_springs_of_law(const SparseRows& L, const MatX& rest, const MatX& FG, VecX& d,
+                                 VecX& r, int& sweeps) {
+    const MatX W_alone = L * FG;
     VecX kappa(W_alone.rows());
     for (Eigen::Index i = 0; i < kappa.size(); i += 3)
       kappa.segment<3>(i).setConstant(1 / std::max(W_alone.block<3, 3>(i, i).norm(), 1e-300));
-    const Lu lu(rest + FG * (kappa.asDiagonal() * m_.L));
+    const SparseRows springs = kappa.asDiagonal() * L;
+    const Lu lu(rest + FG * springs);
     const VecX free = lu.solve(move_);
     const MatX by_reactions = lu.solve_columns(FG);
     if (!free.allFinite() || !by_reactions.allFinite()) return false;
-    const MatX W = m_.L * by_reactions;
+    const MatX W = L * by_reactions;
     const MatX A = MatX::Identity(W.rows(), W.cols()) - kappa.asDiagonal() * W;
-    const VecX b = present_ - kappa.asDiagonal() * VecX(m_.L * free);
-    const SupportedProblem problem{W, A, VecX(q_ + m_.L * free), b, mu_};
+    const VecX b = present_ - kappa.asDiagonal() * VecX(L * free);
+    const SupportedProblem problem{W, A, VecX(q_ + L * free), b, mu_};
     // from the present reactions; where that leads nowhere, from none
     VecX s = present_;
     LocalReport report = solve_supported(problem, s);

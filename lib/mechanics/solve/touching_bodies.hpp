@@ -37,6 +37,10 @@ class TouchingBodies {
                   VecX& f);
   std::vector<ContactDefect> defects(const std::vector<Vec3>& X, const VecX& u, const VecX& u0,
                                      const Reactions& r, std::size_t first, double motion);
+  // what friction does on both sides in a movement du [N mm], with the forces and weights at u; not
+  // positive where reactions are those of the law
+  double work_of_friction(const std::vector<Vec3>& X, const VecX& u, const VecX& du,
+                          const Reactions& r, std::size_t first);
   // of each pair the deepest node of either side inside the facets of the other [mm]
   std::vector<double> penetrations(const std::vector<Vec3>& X, const VecX& u) const;
   // reactions r_next (in the frames at u) after a movement to u + du; without overlap there is none

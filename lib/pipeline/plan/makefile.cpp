@@ -12,8 +12,8 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
                           const std::vector<Rule>& rules, const std::vector<std::string>& finals) {
   std::string text = fmt::format("{}{} from {}: do not edit\n", planned_by, version, pipeline_file);
   text +=
-      "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1]   "
-      "STRICT: a rebuilt program makes its results again\n"
+      "#   make [-j 4] [-k] [LAUNCH=\"srun -n1\"] [STRICT=1] [VERBOSE=1]\n"
+      "#   STRICT: a rebuilt program makes its results again; VERBOSE: commands, and programs with -v\n"
       ".DELETE_ON_ERROR:\n"
       ".SUFFIXES:\n"
       "MAKEFLAGS += --no-builtin-rules\n"
@@ -32,8 +32,11 @@ std::string makefile_text(const std::string& pipeline_file, const std::string& b
     const std::string program = "$(BIN)/" + rule.program;
     text += fmt::format("\n{}: {} $(if $(STRICT),{}) | {}\n", rule.target,
                         fmt::join(rule.prerequisites, " "), program, program);
-    text +=
-        fmt::format("\t$(LAUNCH) {} {} --log $(basename $@).log -o $@\n", program, rule.arguments);
+    // The name of what is made in place of its command, which the log has as its first line.
+    text += fmt::format(
+        "\t$(if $(VERBOSE),,$(info making $@)@)$(LAUNCH) {} {} $(if $(VERBOSE),-v )"
+        "--log $(basename $@).log -o $@\n",
+        program, rule.arguments);
   }
   return text;
 }

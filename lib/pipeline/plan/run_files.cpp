@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/base/input_file.hpp"
+#include "core/base/quoted.hpp"
 #include "core/hdf5/replace.hpp"
 #include "meshing/inp.hpp"
 #include "pipeline/plan/overrides.hpp"
@@ -133,19 +134,16 @@ Identity identity_of(const std::string& stage, const ConfigText& config, const W
   return identity;
 }
 
-std::string json_text(const Identity& identity, const std::vector<Summary>& results) {
+std::string json_text(const Identity& identity, const std::vector<Summary>& results,
+                      const std::vector<TextResult>& texts) {
   std::string s = fmt::format("{{\"stage\": \"{}\", \"config_hash\": \"{}\"", identity.stage,
                               identity.config_hash);
-  const std::string word = "word ";  // a result that is no number has it in place of a unit
   for (const Summary& r : results) {
-    if (r.unit.starts_with(word)) {
-      s += fmt::format(", \"{}\": \"{}\"", r.name, r.unit.substr(word.size()));
-      continue;
-    }
     std::string value = "null";
     if (std::isfinite(r.value)) value = number_text(r.value);
     s += fmt::format(", \"{}\": {}", csv_name(r.name, r.unit), value);
   }
+  for (const TextResult& r : texts) s += fmt::format(", \"{}\": {}", r.name, quoted(r.text));
   return s + "}\n";
 }
 

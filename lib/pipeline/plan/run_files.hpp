@@ -16,6 +16,7 @@
 #include "pipeline/plan/ports.hpp"
 #include "results/store/identity.hpp"
 #include "results/store/provenance.hpp"
+#include "results/store/text_result.hpp"
 
 namespace langer {
 
@@ -50,9 +51,10 @@ std::string content_of(const std::string& path);
 Identity identity_of(const std::string& stage, const ConfigText& config, const Where& where,
                      const InputFiles& inputs, const std::string& command);
 
-// One JSON object: stage, config_hash and the results by column name. A result that is not finite
-// is null.
-std::string json_text(const Identity& identity, const std::vector<Summary>& results);
+// One JSON object: stage, config_hash and the results by column name, then those that are words. A
+// result that is not finite is null.
+std::string json_text(const Identity& identity, const std::vector<Summary>& results,
+                      const std::vector<TextResult>& texts = {});
 
 // Applies "key=value" of the command line to a config that was read from a file.
 void apply_setting(Tree& config, const std::string& setting);

@@ -100,10 +100,13 @@ L.bodyView = (place, all) => {
   times.setAttribute('aria-label', 'size of the picture that is saved');
   const play = L.el('button', { type: 'button', id: 'play', 'aria-pressed': 'false' }, '▶ play'), opacity = range('opacity', 0.1, 1, 0.05, 1), opacityText = L.el('output');
   const keys = L.el('p', { class: 'keys' }, 'With the picture in focus: arrows turn it, + and − come closer or go away, 0 fits it, space plays, [ and ] go through the states. With Shift held the mouse moves the cut; a double click puts it where it is.');
-  panel.append(...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText), L.el('div', { class: 'row' }, play),
-    labelled('displacement drawn', scale, scaleText), labelled('colours', L.el('div', { class: 'row' }, colours)), labelled('colour range', fit),
-    L.el('div', { class: 'row' }, low, '–', high), labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText), labelled('opacity', opacity, opacityText),
-    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, ...views), L.el('div', { class: 'row' }, save, times), keys, missing);
+  // what is wanted first stands below the picture, the rest is folded
+  const more = L.el('div', { class: 'more' }, labelled('displacement drawn', scale, scaleText), labelled('opacity', opacity, opacityText),
+    labelled('colours', L.el('div', { class: 'row' }, colours)), labelled('colour range', fit), L.el('div', { class: 'row' }, low, '–', high),
+    L.el('div', { class: 'row' }, turn.label, edges.label, fibres.label, indenter.label), L.el('div', { class: 'row' }, save, times));
+  panel.append(L.el('div', { class: 'bar' }, ...(bodies.length > 1 ? [labelled('member', member)] : []), labelled('field', field), labelled('state', state, stateText),
+    labelled('cut', L.el('div', { class: 'row' }, clip), ''), labelled('position of the cut', at, atText)),
+    L.el('div', { class: 'row' }, play, ...views), L.el('details', {}, L.el('summary', {}, 'colours, scale, opacity, picture to save, keys'), more, keys), missing);
 
   // scene
   const bright = +THREE.REVISION >= 155 ? Math.PI : 1;
@@ -122,7 +125,15 @@ L.bodyView = (place, all) => {
   scene.add(camera, new THREE.AmbientLight(0xffffff, 0.66 * bright));
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.screenSpacePanning = true;
-  controls.addEventListener('change', () => draw());
+  // turned, the body keeps filling its frame; zoomed or moved by hand, it stays as it was put
+  let held = false;
+  controls.addEventListener('change', () => {
+    if (!size) return;
+    if (!held && centre && controls.target.distanceTo(centre) > 1e-6 * size) held = true;
+    if (!held) zoomToFit();
+    draw();
+  });
+  renderer.domElement.addEventListener('wheel', () => { held = true; }, true);
 
   const scales = {};
   for (const name of Object.keys(L.scales)) {
@@ -144,7 +155,7 @@ L.bodyView = (place, all) => {
   scene.add(mesh, cut, wires, glyphs, punches);
   for (const thing of [mesh, cut, wires, glyphs]) thing.frustumCulled = false;
 
-  let body, x, values, choice, middle, size;
+  let body, x, values, choice, middle, size, centre = null;
   const choose = () => {
     const before = field.value;
     body = bodies[+member.value || 0];
@@ -323,30 +334,37 @@ L.bodyView = (place, all) => {
     camera.position.copy(middle).addScaledVector(from, 2 * size);
     if (clip.value !== 'none') camera.position.addScaledVector(shift(), 1);
     controls.target.copy(middle).add(shift());
+    centre = controls.target.clone();
+    held = false;
     camera.near = -5 * size;
     camera.far = 10 * size;
     camera.zoom = 1;
     resize();
     controls.update();
+    zoomToFit();
+    draw();
+  };
+  // as large as it fits, beside the colour bar
+  const zoomToFit = () => {
     camera.updateMatrixWorld();
-    // as large as it fits, beside the colour bar
     const right = new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0), up = new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1);
-    let w = 0, h = 0;
-    const reach = (p, r) => { p.sub(controls.target); w = Math.max(w, Math.abs(p.dot(right)) + r); h = Math.max(h, Math.abs(p.dot(up)) + r); };
+    const p = new THREE.Vector3(), whole = clip.value === 'none';
+    let w = 1e-9 * size, h = 1e-9 * size;
+    const reach = () => { p.sub(controls.target); w = Math.max(w, Math.abs(p.dot(right))); h = Math.max(h, Math.abs(p.dot(up))); };
     for (let i = 0; i < body.n; ++i) {
-      const p = new THREE.Vector3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
-      if (clip.value === 'none' || plane.distanceToPoint(p) > -1e-3 * size) reach(p, 0);
+      p.set(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+      if (whole || plane.distanceToPoint(p) > -1e-3 * size) reach();
     }
-    punches.visible && punches.children.forEach(p => {
-      const points = p.geometry.attributes.position;
+    // of an indenter larger than the body what is near it
+    punches.visible && punches.children.forEach(punch => {
+      const points = punch.geometry.attributes.position;
       for (let i = 0; i < points.count; ++i) {
-        const at = new THREE.Vector3().fromBufferAttribute(points, i).add(p.position);
-        if (at.distanceTo(middle) < 0.8 * size) reach(at, 0);  // of an indenter larger than the body what is near it
+        p.fromBufferAttribute(points, i).add(punch.position);
+        if (p.distanceTo(middle) < 0.8 * size) reach();
       }
     });
     camera.zoom = 0.95 * Math.min((camera.right - camera.left - 170 * perPixel()) / (2 * w), (camera.top - camera.bottom - 80 * perPixel()) / (2 * h));
     camera.updateProjectionMatrix();
-    draw();
   };
   const perPixel = () => (camera.right - camera.left) / stage.clientWidth;
   const resize = () => {
@@ -479,9 +497,10 @@ L.bodyView = (place, all) => {
     offset.phi = Math.min(Math.PI - 0.01, Math.max(0.01, offset.phi - up));
     camera.position.copy(controls.target).add(new THREE.Vector3().setFromSpherical(offset));
     controls.update();
+    if (!held) zoomToFit();
     draw();
   };
-  const closer = factor => { camera.zoom *= factor; camera.updateProjectionMatrix(); draw(); };
+  const closer = factor => { held = true; camera.zoom *= factor; camera.updateProjectionMatrix(); draw(); };
   const by = { ArrowLeft: () => turned(-0.1, 0), ArrowRight: () => turned(0.1, 0), ArrowUp: () => turned(0, 0.1), ArrowDown: () => turned(0, -0.1), '+': () => closer(1.15), '=': () => closer(1.15),
     '-': () => closer(1 / 1.15), '0': () => fitted(), ' ': () => play.click(), '[': () => go(-1), ']': () => go(1) };
   renderer.domElement.addEventListener('keydown', event => { if (by[event.key] && !event.ctrlKey && !event.metaKey) { event.preventDefault(); event.stopPropagation(); by[event.key](); } }, true);
@@ -523,10 +542,8 @@ L.bodyView = (place, all) => {
     update();
   });
   for (const end of [low, high]) end.oninput = () => { fit.value = 'own'; update(); };
-  // seen from where it was put, it fits again; turned or moved by hand it stays
-  let byHand = false;
-  controls.addEventListener('start', () => { byHand = true; });
-  const fitAgain = () => { if (body && size && stage.clientWidth) { if (byHand) { resize(); draw(); } else fitted(); } };
+  // seen from where it was put, it fits again; zoomed or moved by hand it stays
+  const fitAgain = () => { if (body && size && stage.clientWidth) { if (held) { resize(); draw(); } else fitted(); } };
   if (window.ResizeObserver) new ResizeObserver(fitAgain).observe(stage); else addEventListener('resize', fitAgain);
 
   // on paper: a picture in place of WebGL, which browsers leave out

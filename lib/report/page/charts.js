@@ -27,6 +27,13 @@ L.number = (x, digits = 4) => {
   const s = a >= 1e5 || a < 1e-3 ? x.toExponential(digits - 1) : String(+x.toPrecision(digits));
   return s.replace('e', ' e').replace(/-/g, '−');
 };
+// A number to the digits that its error leaves known, as the sentence above has it.
+L.rounded = (x, error) => {
+  if (!(error > 0) || !isFinite(x) || x === 0) return L.number(x, 5);
+  const power = Math.floor(Math.log10(error)), last = error < 2 * 10 ** power ? power - 1 : power;
+  const first = Math.floor(Math.log10(Math.abs(x))), digits = Math.min(6, Math.max(1, first - last + 1)), s = L.number(x, digits);
+  return /e/.test(s) ? s : (+x.toPrecision(digits)).toFixed(Math.max(0, digits - 1 - first)).replace(/-/g, '−');
+};
 L.unit = u => (!u || u === '-' ? '' : { deg: '°', percent: '%' }[u] || u.replace('^2', '²').replace('^3', '³'));
 L.withUnit = (label, unit) => label + (L.unit(unit) ? ` (${L.unit(unit)})` : '');
 L.ticks = (low, high, wished = 5) => {
@@ -95,6 +102,35 @@ L.legend = (chart, shown) => {
   }));
 };
 
+// A line through points as a path. Where x goes one way it is Fritsch and Carlson's monotone cubic: it passes through every point, and between
+// two points it never leaves their values, so that it shows no extreme that the values do not have.
+L.smoothPath = points => {
+  const n = points.length, at = p => `${p[0].toFixed(1)} ${p[1].toFixed(1)}`;
+  if (n === 0) return '';
+  const straight = 'M' + points.map(at).join('L'), few = 400;
+  const dx = points.slice(1).map((p, k) => p[0] - points[k][0]);
+  if (n < 3 || n > few || !(dx.every(d => d > 0) || dx.every(d => d < 0))) return straight;
+  const slope = dx.map((d, k) => (points[k + 1][1] - points[k][1]) / d);
+  // a corner, where the load turns, stays one: the curves on both sides end there
+  const sharp = 5, corner = slope.findIndex((b, k) => k > 0 && slope[k - 1] * b < 0 && Math.max(Math.abs(b / slope[k - 1]), Math.abs(slope[k - 1] / b)) > sharp);
+  if (corner > 0) return L.smoothPath(points.slice(0, corner + 1)) + L.smoothPath(points.slice(corner)).replace(/^M[^CL]*/, '');
+  const m = points.map((p, k) => {  // harmonic mean, weighted by the lengths: 0 at an extreme
+    if (k === 0 || k === n - 1) return slope[k === 0 ? 0 : n - 2];
+    const a = slope[k - 1], b = slope[k];
+    if (a * b <= 0) return 0;
+    const wa = 2 * dx[k] + dx[k - 1], wb = dx[k] + 2 * dx[k - 1];
+    return (wa + wb) / (wa / a + wb / b);
+  });
+  // at the ends the slope of the parabola through three points, within three times the first secant
+  const end = (s0, s1, d0, d1) => { const t = ((2 * d0 + d1) * s0 - d0 * s1) / (d0 + d1); return t * s0 <= 0 ? 0 : s0 * s1 <= 0 && Math.abs(t) > 3 * Math.abs(s0) ? 3 * s0 : t; };
+  m[0] = end(slope[0], slope[1], dx[0], dx[1]);
+  m[n - 1] = end(slope[n - 2], slope[n - 3], dx[n - 2], dx[n - 3]);
+  return 'M' + at(points[0]) + dx.map((d, k) => {
+    const [p, q] = [points[k], points[k + 1]];
+    return `C${at([p[0] + d / 3, p[1] + m[k] * d / 3])} ${at([q[0] - d / 3, q[1] - m[k + 1] * d / 3])} ${at(q)}`;
+  }).join('');
+};
+
 // a line with a band of its error about it
 L.banded = s => s.error && s.error.length > 0 && s.error.length === s.x.length;
 
@@ -156,19 +192,23 @@ L.chart = chart => {
   const line = (s, look, { px, py }, within) => {
     const usable = k => s.x[k] !== null && s.y[k] !== null && (!state.logX || s.x[k] > 0) && (!state.logY || s.y[k] > 0);
     if (L.banded(s) && !state.logX && !state.logY) {
-      const ends = sign => s.x.map((x, k) => `${px(x).toFixed(1)} ${py(s.y[k] + sign * s.error[k]).toFixed(1)}`);
-      within.append(L.el('path', { d: 'M' + [...ends(1), ...ends(-1).reverse()].join('L') + 'Z', fill: look.colour, 'fill-opacity': 0.18, class: 'band' }));
+      const ends = sign => s.x.map((x, k) => [px(x), py(s.y[k] + sign * s.error[k])]);
+      const d = L.smoothPath(ends(1)) + 'L' + L.smoothPath(ends(-1).reverse()).slice(1) + 'Z';
+      within.append(L.el('path', { d, fill: look.colour, 'fill-opacity': 0.18, class: 'band' }));
     }
-    let d = '', pen = false;
+    const pieces = [];
+    let pen = false;
     s.x.forEach((x, k) => {
       if (!usable(k)) { pen = false; return; }
       const at = { px: px(x), py: py(s.y[k]) };
       state.points.push({ ...at, x, y: s.y[k], name: s.name, colour: look.colour, error: L.banded(s) ? s.error[k] : null });
       if (s.points) within.append(L.el('circle', { cx: at.px, cy: at.py, r: 3.2, fill: 'none', stroke: look.colour, 'stroke-width': 1.6 }));
-      d += (pen ? 'L' : 'M') + at.px.toFixed(1) + ' ' + at.py.toFixed(1);
+      if (!pen) pieces.push([]);
+      pieces[pieces.length - 1].push([at.px, at.py]);
       pen = true;
     });
     if (s.points) return;
+    const d = pieces.map(L.smoothPath).join('');
     within.append(L.el('path', { d, fill: 'none', stroke: look.colour, 'stroke-width': 2, 'stroke-dasharray': look.dash, 'stroke-linejoin': 'round' }));
     if (s.x.length < 12) s.x.forEach((x, k) => usable(k) && within.append(L.el('circle', { cx: px(x), cy: py(s.y[k]), r: 2.6, fill: look.colour })));
   };

@@ -9,9 +9,10 @@ document.documentElement.dataset.errors = '';
 const data = JSON.parse(document.getElementById('data').textContent), main = document.getElementById('main');
 const section = (id, title, ...children) => {
   if (!children.length) return;
-  document.getElementById('nav').append(L.el('a', { href: '#' + id, onclick: `document.getElementById('${id}').scrollIntoView(); return false` }, title));
+  linked(id, title);
   main.append(L.el('section', { id }, L.el('h2', {}, title), ...children));
 };
+const linked = (id, title) => document.getElementById('nav').append(L.el('a', { href: '#' + id, onclick: `document.getElementById('${id}').scrollIntoView(); return false` }, title));
 const grid = children => children.length ? [L.el('div', { class: 'grid' }, ...children)] : [];
 const levels = { warning: '⚠ warning', note: 'note', good: '✓ good' };
 // Curves at the level of rounding say that something holds, not how anything goes: they stand in one folded place.
@@ -24,12 +25,19 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
   L.el('dl', {}, ...a.facts.flatMap(f => [L.el('dt', {}, f.name), L.el('dd', {}, f.text)]))));
 {
   const order = ['warning', 'note', 'good'], sorted = data.verdicts.slice().sort((a, b) => order.indexOf(a.level) - order.indexOf(b.level));
+  // error bars of further quantities of one file: one note
+  const bar = ' by mesh and increments', isBar = v => v.level === 'note' && v.text.endsWith(bar);
+  for (const of of new Set(sorted.filter(isBar).map(v => v.of))) {
+    const bars = sorted.filter(v => isBar(v) && v.of === of);
+    bars.slice(1).forEach(v => sorted.splice(sorted.indexOf(v), 1));
+    bars[0] = sorted[sorted.indexOf(bars[0])] = { ...bars[0], text: bars.map(v => v.text.slice(0, -bar.length)).join(', ') + bar };
+  }
   // what is said of several members in the same words stands once
   const alike = new Map(), key = v => v.level + v.text.replace(/[-\d.]+(e[-+]\d+)?/g, '#');
   sorted.forEach(v => alike.set(key(v), (alike.get(key(v)) || []).concat(v)));
   // what holds is folded where there is much of it: it shall not stand before the picture
   const much = 3;
-  const line = v => L.el('div', { class: 'verdict ' + v.level, role: 'listitem' }, L.el('b', {}, levels[v.level]), L.el('span', { class: 'of' }, v.of), L.el('span', {}, ...v.text.split('`').map((part, i) => i % 2 ? L.el('code', {}, part) : part)));
+  const line = v => L.el('div', { class: 'verdict ' + v.level, role: 'listitem' }, L.el('b', {}, levels[v.level], ' ', L.el('span', { class: 'of' }, v.of)), L.el('span', {}, ...v.text.split('`').map((part, i) => i % 2 ? L.el('code', {}, part) : part)));
   const rows = [...alike.values()].map(group => {
     if (group.length === 1) return line(group[0]);
     const same = group.every(v => v.text === group[0].text), row = line({ ...group[0], of: `${group.length} members` });
@@ -57,7 +65,7 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
     const ends = c => { const s = c.series[0], most = (c.marks && c.marks[0] || { y: 3.84 }).y, within = s.x.filter((x, k) => x !== null && s.y[k] !== null && s.y[k] <= most); return [Math.min(...within), Math.max(...within)]; };
     const wide = c => { const [a, b] = ends(c); return (b - a) / (Math.abs(a + b) || 1); };
     const worst = profiles.slice().sort((a, b) => wide(b) - wide(a))[0], [a, b] = ends(worst);
-    glances.push(glance(svgOf(L.chart(worst)), `least known: ${worst.xLabel}, ${L.number(a, 3)} to ${L.number(b, 3)} ${L.unit(worst.xUnit)} at 95 %`));
+    glances.push(glance(svgOf(L.chart(worst)), `least identifiable: ${worst.xLabel}, ${L.number(a, 3)} to ${L.number(b, 3)} ${L.unit(worst.xUnit)} at 95 %`));
   }
   for (const m of data.matrices.slice(0, 1)) {
     let best = null;
@@ -70,28 +78,31 @@ const answers = data.answers.map(a => L.el('div', { class: 'answers' }, L.el('p'
   }
   const looks = glances.length ? L.el('div', { class: 'glances' }, ...glances) : '';
   const verdicts = rows.length ? L.el('div', { class: 'verdicts', role: 'list', 'aria-label': 'verdicts' }, ...rows) : '';
-  if (told.length || rows.length || glances.length)
-    section('summary', 'Summary', L.el('div', { class: told.length ? 'first' : 'first wide' }, told.length ? L.el('div', {}, ...told) : '', L.el('div', {}, verdicts, looks)));
-}
-if (data.bodies.length) {
-  const place = L.el('div', { class: 'body' });
-  section('body', 'Deformed body', place);
-  try { L.bodyView(place, data.bodies); } catch (e) {
+  // the sentence with the body beside it, then what is to be known of it
+  const place = L.el('div', { class: 'body' }), picture = data.bodies.length ? L.el('div', { class: 'picture', id: 'body' }, L.el('h2', {}, 'Deformed body'), place) : '';
+  // where there is little to say beside the picture, the first curve that was asked for
+  const asked = data.charts.find(c => c.group === 'curves' && !rounded(c)), few = 3;
+  const curve = picture && asked && rows.length <= few ? [L.chart(asked)] : [];
+  const beside = picture ? 'first' : 'first wide';
+  if (told.length || rows.length || glances.length || picture)
+    section('summary', 'Summary', L.el('div', { class: beside }, L.el('div', { class: 'told' }, ...told), picture, L.el('div', { class: 'known' }, verdicts, ...curve)), looks);
+  if (picture) linked('body', 'Deformed body');
+  if (picture) try { L.bodyView(place, data.bodies); } catch (e) {
     place.replaceChildren(L.el('p', {}, 'The view of the body needs WebGL, which this browser does not offer: ' + e.message));
     document.documentElement.dataset.view = 'none: ' + e.message;
   }
 }
 section('fits', 'Fits', ...grid(charts('fits')));
-section('identifiability', 'What the tests tell', ...grid([...charts('profiles'), ...data.matrices.map(L.matrix), ...data.maps.map(L.planeMap)]));
+section('identifiability', 'Identifiability', ...grid([...charts('profiles'), ...data.matrices.map(L.matrix), ...data.maps.map(L.planeMap)]));
 section('curves', 'Curves', ...grid(charts('curves')));
 section('sweep', 'Sweep', ...grid(data.polars.map(L.polar).concat(charts('sweep'))));
 section('sensitivity', 'Sensitivity', ...grid(charts('sensitivity')));
 const path = grid(charts('path'));
-section('path', 'Path of the solver', ...(path.length ? [L.el('details', {}, L.el('summary', {}, 'what the solver wrote for every step'), ...path)] : []));
+section('path', 'Solver history', ...(path.length ? [L.el('details', {}, L.el('summary', {}, 'what the solver recorded at every step'), ...path)] : []));
 {
   const small = data.charts.filter(rounded), most = c => Math.max(0, ...c.series.flatMap(s => s.y.map(v => Math.abs(v || 0))));
   if (small.length)
-    section('rounding', 'At the level of rounding', L.el('details', {}, L.el('summary', {}, `${small.length} of the curves stay below 10⁻⁸: ${small.map(c => c.yLabel).join(', ')}`),
+    section('rounding', 'Rounding errors', L.el('details', {}, L.el('summary', {}, `${small.length} of the curves stay below 10⁻⁸: ${small.map(c => c.yLabel).join(', ')}`),
       L.table({ columns: [{ name: 'quantity', unit: '' }, { name: 'unit', unit: '' }, { name: 'at most', unit: '' }],
         rows: small.map(c => [c.yLabel, L.unit(c.yUnit) || '-', most(c)]) })));
 }

@@ -4,16 +4,17 @@
 const onPaper = 680, letters = 9.5, between = 9;
 L.table = table => {
   const columns = table.columns.map((_, i) => i), title = table.title || 'table';
-  const text = v => typeof v === 'string' ? v : L.number(v, 5), units = table.columns.map(c => L.unit(c.unit));
+  const errorOf = table.columns.map(c => table.columns.findIndex(e => e.name === c.name + '_error' && e.unit === c.unit));
+  const text = (v, i, row) => typeof v === 'string' ? v : errorOf[i] >= 0 ? L.rounded(v, row[errorOf[i]]) : /_error$/.test(table.columns[i].name) ? L.number(v, 2) : L.number(v, 5), units = table.columns.map(c => L.unit(c.unit));
   const part = some => L.el('table', { 'aria-label': title },
     L.el('thead', {}, L.el('tr', {}, ...some.map(i => L.el('th', { scope: 'col' }, table.columns[i].name, L.el('small', {}, units[i] || '\u00a0'))))),
-    L.el('tbody', {}, ...table.rows.map(row => L.el('tr', {}, ...some.map(i => L.el('td', typeof row[i] === 'string' ? { class: 'word' } : {}, text(row[i])))))));
+    L.el('tbody', {}, ...table.rows.map(row => L.el('tr', {}, ...some.map(i => L.el('td', typeof row[i] === 'string' ? { class: 'word' } : {}, text(row[i], i, row)))))));
   const box = L.el('div', { class: 'scroll' }, part(columns));
   L.printed.push(() => {
     if (box.childElementCount > 1) return;
     const ruler = L.el('canvas', {}).getContext('2d');
     ruler.font = `600 ${letters}px ${getComputedStyle(document.body).fontFamily}`;
-    const widths = columns.map(i => between + Math.max(...[table.columns[i].name, units[i], ...table.rows.map(row => text(row[i]))].map(t => Math.min(ruler.measureText(t).width, onPaper / 3))));  // words may be broken
+    const widths = columns.map(i => between + Math.max(...[table.columns[i].name, units[i], ...table.rows.map(row => text(row[i], i, row))].map(t => Math.min(ruler.measureText(t).width, onPaper / 3))));  // words may be broken
     const parts = [];
     let room = 0;
     for (const i of columns.slice(1)) {

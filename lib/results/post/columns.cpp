@@ -187,7 +187,9 @@ std::string estimated_word(const ColumnChoice& c) {
 // The history with the estimated error of a column; empty if it has none.
 std::string error_history(const ColumnChoice& c) {
   const std::string word = estimated_word(c);
-  if (is_torque(c) || word == "force") return error_of(word);
+  if (is_torque(c) || word == "force" || word == "pull_off" || word == "von_mises_max")
+    return error_of(word);
+  if (word == "u_y" && column_name(c) == "apex_height") return error_of("apex_height");
   if (word.starts_with("reaction_") && c.at) return error_of("reaction_" + *c.at);
   return "";
 }
@@ -262,7 +264,9 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                  "a quantity that needs no indenter", "");
       if (line.needs.shapes && !available.energy)
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
-                 "a solution whose config this version can read", "");
+                 "a solution whose config this version can read, without contact of deformable "
+                 "surfaces",
+                 "energy, kinetic_energy and energy_balance know these");
       // Without contact the complaint above is enough.
       if (line.needs.history && (available.contact || !line.needs.contact) &&
           !contains(available.histories, line.needs.history))

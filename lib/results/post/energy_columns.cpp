@@ -40,27 +40,23 @@ Vec3 sum_over_ring(const Mesh& mesh, const Vec3& sum) {
   return sum;
 }
 
-// The force with which an indenter and its bonds pull the body towards it, along the mean normal
-// of the nodes in contact [N].
-double pull_force(const RigidContact& contact, const Mesh& mesh, const EnergyPath::State& state,
-                  std::size_t k, const Vec3& c) {
+}  // namespace
+
+double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const Vec3> u,
+                  std::span<const Vec3> r, std::span<const Vec3> bonds, const Vec3& c) {
   Vec3 force = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const Vec3& r = state.r[k][i];
-    const Vec3& bond = state.bonds[k][i];
-    if (r.isZero(0) && bond.isZero(0)) continue;
+    if (r[i].isZero(0) && bonds[i].isZero(0)) continue;
     const int node = contact.nodes[i];
-    const Vec3 n = shape_at(contact.shape, mesh.X[node] + state.u[node] - c).normal;
-    force += r + bond;
-    normal += (r.norm() + bond.norm()) * n;
+    const Vec3 n = shape_at(contact.shape, mesh.X[node] + u[node] - c).normal;
+    force += r[i] + bonds[i];
+    normal += (r[i].norm() + bonds[i].norm()) * n;
   }
   normal = sum_over_ring(mesh, normal);
   if (normal.isZero(0)) return 0;
   return std::max(0.0, -force.dot(normal.normalized()));
 }
-
-}  // namespace
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
                        std::vector<double> kinks, std::vector<TurnedSet> turned)
@@ -89,7 +85,7 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
     step.force = sum_over_ring(mesh_, force).norm();
   }
   if (!now.bonds.empty() && !now.bonds[k].empty())
-    step.pull = std::max(step.pull, pull_force(contact, mesh_, now, k, c));
+    step.pull = std::max(step.pull, pull_force(contact, mesh_, now.u, now.r[k], now.bonds[k], c));
   double angle = 0;
   if (contact.rotation) {
     angle = contact.rotation->angle.at(now.t) - contact.rotation->angle.at(last_.t);

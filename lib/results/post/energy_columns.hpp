@@ -19,6 +19,7 @@
 // they still store it or have dissipated it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mechanics/assembly/dofs.hpp"
@@ -32,6 +33,11 @@ struct PathSums {
   double path = 0, work = 0, dissipated = 0, balance = 0, hysteresis = 0, relaxation = 1,
          pull_off = 0;
 };
+
+// The force with which an indenter at c and its bonds pull the body towards it, along the mean
+// normal of the nodes in contact [N]. u: of all nodes; r, bonds: of the candidates
+double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const Vec3> u,
+                  std::span<const Vec3> r, std::span<const Vec3> bonds, const Vec3& c);
 
 // Adds up energies state by state. The sums of a state also depend on the state after it, because
 // the parabola uses both neighbours, so they are computed at the end.

@@ -70,6 +70,9 @@ constexpr QuantityLine lines[]{
     {"load_pressure", "MPa", "pressure of the given volume",
      "of the one surface that is given a volume; positive into the body",
      history<"load_pressure">, {.history = "load_pressure"}},
+    {"applied_pressure", "MPa", "applied pressure",
+     "of the load with the largest pressure; positive into the body, so that suction is negative",
+     history<"applied_pressure">},
     {"pumped_volume", "mm^3", "pumped volume",
      "swept since rest by the surface that is given a volume; positive into the body; in a section "
      "that of the whole circle or slab",

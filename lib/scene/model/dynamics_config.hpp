@@ -51,7 +51,7 @@ struct DynamicsConfig {
       Hint{"in kg/m3: 1.1 g/cm3 and 1.1e-9 t/mm3 are 1100"});
     v(&DynamicsConfig::scheme, "scheme", unit::none,
       "generalised_alpha: second order, takes the highest frequencies away by rho_inf; "
-      "energy_momentum: keeps the energy of a body that is held, without contact; theta: "
+      "energy_momentum: keeps energy and angular momentum, without contact; theta: "
       "first order, impulses in the place of accelerations");
     v(&DynamicsConfig::rho_inf, "rho_inf", unit::none,
       "of generalised_alpha: what is left of the highest frequencies after a step; none: 0.8, with "

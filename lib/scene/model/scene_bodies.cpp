@@ -211,6 +211,7 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
     for (int i = 0; i < mesh.n_nodes(); ++i)
       x.segment<3>(3 * i) = mesh.X[static_cast<std::size_t>(i)];
     for (const SurfaceContact& surface : scene.surfaces) {
+      if (surface.touches_itself()) continue;  // holds nothing
       const bool touches =
           std::any_of(surface.all_nodes.begin(), surface.all_nodes.end(),
                       [&](int node) { return std::binary_search(body.begin(), body.end(), node); });
@@ -264,6 +265,12 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     const std::vector<Facet> other =
         facets_of(mesh, *contact.against, key + ".against", where, errors);
     if (own.empty() || other.empty()) continue;
+    if (contact.on == *contact.against) {
+      SurfaceContact surface = self_contact(name, contact.friction, mesh, own);
+      refuse_overlap(surface, mesh, key, where, errors);
+      scene.surfaces.push_back(std::move(surface));
+      continue;
+    }
     SurfaceContact surface = surface_contact(name, contact.friction, mesh, own, other);
     std::vector<int> others;
     for (const QuadNodes& facet : surface.other)
@@ -275,12 +282,15 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     if (shared) {
       errors.push_back({where(key + ".against"), key + ".against",
                         "shares nodes with the set of `on`: the two are glued there",
-                        "a surface of another body", "`bodies` gives each body a mesh of its own"});
+                        "a surface of another body, or the set of `on` itself",
+                        "`bodies` gives each body a mesh of its own; a surface that folds names "
+                        "the same set twice"});
       continue;
     }
     refuse_overlap(surface, mesh, key, where, errors);
     scene.surfaces.push_back(std::move(surface));
   }
+  if (config.in_motion()) return;  // inertia resists every motion
   if (errors.size() == before && (!config.bodies.empty() || !scene.surfaces.empty()))
     refuse_loose(scene, mesh, prescribed, where, errors);
 }

@@ -3,31 +3,102 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "core/base/text.hpp"
 #include "core/config/member.hpp"
+#include "mechanics/assembly/separate_bodies.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
 
 namespace langer {
 
 namespace {
 
-// A body all of whose nodes may touch indenters would have no mass left.
+// A body all of whose nodes may touch others would have no mass left.
 void refuse_without_mass(const Scene& scene, const Mesh& mesh, const Place& place,
                          std::vector<Error>& errors) {
   std::vector<char> touches(mesh.X.size(), 0);
   for (const RigidContact& contact : scene.contacts) {
     for (int node : contact.nodes) touches[static_cast<std::size_t>(node)] = 1;
   }
-  for (int e = 0; e < mesh.n_cells(); ++e) {
-    const auto nodes = mesh.cell(e);
-    const bool keeps =
-        std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !touches[node]; });
-    if (keeps) return;
+  for (const SurfaceContact& surface : scene.surfaces) {
+    for (int node : surface.all_nodes) touches[static_cast<std::size_t>(node)] = 1;
   }
-  errors.push_back({place, "dynamics.contact_mass",
-                    "every node may touch an indenter, and would lose its mass",
-                    "kept, or more cells", "`on` of a contact names the nodes that may touch it"});
+  std::vector<char> in_a_cell(mesh.X.size(), 0);
+  for (int node : mesh.connectivity) in_a_cell[static_cast<std::size_t>(node)] = 1;
+  std::vector<std::vector<int>> bodies{{}};
+  if (scene.surfaces.empty()) {
+    for (int node = 0; node < mesh.n_nodes(); ++node) bodies.front().push_back(node);
+  } else {
+    bodies = separate_bodies(mesh);
+  }
+  for (const std::vector<int>& nodes : bodies) {
+    const auto inside = [&](int node) {
+      return in_a_cell[static_cast<std::size_t>(node)] != 0;
+    };
+    const auto keeps = [&](int node) {
+      return inside(node) && !touches[static_cast<std::size_t>(node)];
+    };
+    if (std::none_of(nodes.begin(), nodes.end(), inside)) continue;
+    if (std::any_of(nodes.begin(), nodes.end(), keeps)) continue;
+    std::string who = "an indenter";
+    if (!scene.surfaces.empty()) {
+      const Vec3& X = mesh.X[static_cast<std::size_t>(nodes.front())];
+      who = fmt::format("another body, of the one at ({:g}, {:g}, {:g}),", X[0], X[1], X[2]);
+    }
+    errors.push_back({place, "dynamics.contact_mass",
+                      "every node may touch " + who + ", and would lose its mass",
+                      "kept, or more cells",
+                      "`on` and `against` of a contact name the nodes that may touch"});
+    return;
+  }
+}
+
+// The body of the config that each layer of the mesh belongs to. Both have the same order, and the
+// name of a layer is that of its body, or begins with it and _.
+std::vector<std::string> bodies_of_layers(const SolveConfig& config, const Mesh& mesh) {
+  std::vector<std::string> owners;
+  auto body = config.bodies.begin();
+  for (const std::string& layer : mesh.bodies) {
+    const auto next = std::next(body);
+    if (next != config.bodies.end() &&
+        (layer == next->first || layer.starts_with(next->first + "_"))) {
+      body = next;
+    }
+    owners.push_back(body->first);
+  }
+  return owners;
+}
+
+// Several bodies and their velocities at the beginning.
+std::vector<MovingBody> moving_bodies(const SolveConfig& config, const Mesh& mesh,
+                                      const InertiaOptions& motion) {
+  std::vector<MovingBody> moving;
+  if (config.bodies.empty()) return moving;
+  const std::vector<std::string> owners = bodies_of_layers(config, mesh);
+  for (const auto& [name, body] : config.bodies) {
+    MovingBody& one = moving.emplace_back();
+    one.name = name;
+    one.velocity = motion.velocity;
+    one.spin = motion.spin;
+    one.spin_centre = motion.spin_centre;
+    std::set<int> nodes;
+    for (int e = 0; e < mesh.n_cells(); ++e) {
+      const auto layer = static_cast<std::size_t>(mesh.body[static_cast<std::size_t>(e)]);
+      if (owners[layer] != name) continue;
+      for (int node : mesh.cell(e)) nodes.insert(node);
+    }
+    one.nodes.assign(nodes.begin(), nodes.end());
+    if (body.velocity || body.spin) one.spin.setZero();
+    if (body.velocity) one.velocity = vec(*body.velocity);
+    if (!body.spin) continue;
+    one.spin = vec(*body.spin);
+    std::vector<Vec3> places;
+    for (int node : one.nodes) places.push_back(mesh.X[static_cast<std::size_t>(node)]);
+    one.spin_centre = bounding_box(places).middle();
+  }
+  return moving;
 }
 
 // Motions that leave the plane of a section or turn it.
@@ -86,7 +157,8 @@ void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
          "consistent", "sums of rows are for hex8"});
   }
   motion.scheme = dynamics.scheme;
-  motion.rho_inf = dynamics.rho_inf.value_or(scene.contacts.empty() ? 0.8 : 1);
+  const bool touches = !scene.contacts.empty() || !scene.surfaces.empty();
+  motion.rho_inf = dynamics.rho_inf.value_or(touches ? 1 : 0.8);
   motion.theta = dynamics.theta;
   motion.xi = dynamics.xi;
   if (dynamics.damping) {
@@ -97,6 +169,7 @@ void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
   motion.velocity = vec(dynamics.velocity);
   motion.spin = vec(dynamics.spin);
   motion.spin_centre = bounding_box(mesh.X).middle();
+  motion.bodies = moving_bodies(config, mesh, motion);
   motion.seconds = config.path.seconds.value_or(1);
   for (const RigidContact& contact : scene.contacts) {
     if (!contact.control || !contact.control->free()) continue;
@@ -104,7 +177,7 @@ void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     motion.travel_velocity = contact.control->velocity;
     motion.travel_weight = contact.control->mass * motion.gravity.dot(contact.control->along);
   }
-  if (dynamics.contact_mass == ContactMass::moved_inwards && !scene.contacts.empty()) {
+  if (dynamics.contact_mass == ContactMass::moved_inwards && touches) {
     motion.massless.assign(mesh.X.size(), 0);  // those of the part are set where it is known
     refuse_without_mass(scene, mesh, where("dynamics"), errors);
   }

@@ -9,6 +9,7 @@
 
 #include "core/base/text.hpp"
 #include "mechanics/material/parameters.hpp"
+#include "mechanics/mesh/facets.hpp"
 
 namespace langer {
 
@@ -116,6 +117,78 @@ SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, co
   }
 }
 
+namespace {
+
+// A set of facets that a thickness would turn or stretch: what acts on them would change.
+bool moves_facets(const LayerThickness& layer, const Mesh& mesh, const SurfaceLoad& load) {
+  for (const Facet& facet : load.facets)
+    for (const auto& quad : facet_quads(mesh, facet)) {
+      const double first = layer.rate(mesh.X[static_cast<std::size_t>(quad[0])][1]);
+      for (const int node : quad)
+        if (std::abs(layer.rate(mesh.X[static_cast<std::size_t>(node)][1]) - first) > 1e-9)
+          return true;
+    }
+  return false;
+}
+
+[[noreturn]] void refuse_number(Error error, const std::string& found, std::string expected,
+                                std::string hint) {
+  error.found += ", " + found;
+  error.expected = std::move(expected);
+  error.hint = std::move(hint);
+  throw Failure(Exit::config, std::move(error));
+}
+
+}  // namespace
+
+// A number of the shape of an indenter, by two shapes on either side of the present one.
+bool SceneParameters::take_shape(const std::string& key, const SolveConfig& config,
+                                 const Error& refused) {
+  const auto name = contact_of_shape(key);
+  if (!name || !config.contacts.count(*name) || !config.contacts.at(*name).rigid) return false;
+  const auto value = config_number(config, key);
+  if (!value) return false;
+  if (is_from_file(*config.contacts.at(*name).rigid))
+    refuse_number(refused, "and the shape comes from a file", "a shape of numbers", "");
+  const double h = 1e-6 * std::max(std::abs(*value), 0.1);
+  const auto shape_with = [&](double by) {
+    return *with_config_number(config, key, *value + by).contacts.at(*name).rigid;
+  };
+  Of of;
+  of.contact = *name;
+  of.shape = ShapeChange{shape_with(-h), shape_with(h), 2 * h};
+  list_.push_back({key, name_of(key), unit_of_config_number(key), *value});
+  of_.push_back(std::move(of));
+  return true;
+}
+
+// The thickness of a layer. What acts on its sides, and directions that are given by places, would
+// change with it: then nothing but whole runs tell the derivative.
+bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& config,
+                                     const Mesh& mesh, const Scene& scene, const Error& refused) {
+  if (!names_thickness(key, config)) return false;
+  std::string why;
+  const auto layer = layer_thickness(key, config, mesh, why);
+  if (!layer)
+    refuse_number(refused, "and " + why, "the thickness of a flat layer with indenters on one side",
+                  "");
+  if (scene.formulation == Formulation::linear_dilatation)
+    refuse_number(refused, "and cells are of second order", "hex8, or another number",
+                  "langer-fit finds it by differences of runs");
+  if (scene.directions.from_field())
+    refuse_number(refused, "and a fibre_field gives directions by places", "another number",
+                  "langer-fit finds it by differences of runs");
+  for (const SurfaceLoad& load : scene.loads)
+    if (moves_facets(*layer, mesh, load))
+      refuse_number(refused, "and a load acts on its sides", "another number",
+                    "langer-fit finds it by differences of runs");
+  Of of;
+  of.layer = layer;
+  list_.push_back({key, name_of(key), unit::mm, layer->value()});
+  of_.push_back(std::move(of));
+  return true;
+}
+
 // Finds the number that a key means: friction of a contact, a number of the material at the top, or
 // of one body. Everything that cannot be differentiated is refused with the reason.
 void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh,
@@ -148,6 +221,8 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     of_.push_back({contact.name, "", {}});
     return;
   }
+  if (take_shape(key, config, refused)) return;
+  if (take_thickness(key, config, mesh, scene, refused)) return;
   const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies,
                            const std::vector<int>& of_angles) {
     if (bodies.empty()) return false;
@@ -187,6 +262,10 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")), did_you_mean(near));
 }
 
+bool SceneParameters::moves_mesh() const {
+  return std::any_of(of_.begin(), of_.end(), [](const Of& of) { return of.layer.has_value(); });
+}
+
 bool SceneParameters::turns_fibres() const {
   return std::any_of(of_.begin(), of_.end(), [](const Of& of) { return of.family >= 0; });
 }
@@ -218,7 +297,12 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
     const double share = 0.01 * static_cast<double>(i + 1);
     if (!of_laws(i)) {
       for (RigidContact& contact : other.contacts)
-        if (contact.name == of_[i].contact) contact.mu *= 1 + share;
+        if (contact.name == of_[i].contact) {
+          if (of_[i].shape)
+            contact.shape = of_[i].shape->more;
+          else
+            contact.mu *= 1 + share;
+        }
       continue;
     }
     const double value = list_[i].value;

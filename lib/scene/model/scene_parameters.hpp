@@ -4,12 +4,16 @@
 //   materials.dermis.matrix.yeoh.a1     of the body's own
 //   fibres[0].alpha                     angle of a family [deg]: it turns in its cells
 //   contacts.sphere.friction            of an indenter
+//   contacts.sphere.rigid.sphere.radius any number of its shape (scene/model/config_number.hpp)
+//   mesh.bodies[0].thickness            of a flat layer; mesh.geometry.block.size[1] of one body
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "mechanics/solve/state_tangent.hpp"
+#include "scene/model/config_number.hpp"
 #include "scene/model/scene.hpp"
 
 namespace langer {
@@ -34,10 +38,15 @@ class SceneParameters {
 
   const std::vector<SceneParameter>& list() const { return list_; }
   bool turns_fibres() const;
-  bool of_laws(std::size_t i) const { return of_[i].contact.empty(); }
+  bool moves_mesh() const;
+  bool of_laws(std::size_t i) const { return of_[i].contact.empty() && !of_[i].layer; }
+  // The layer whose thickness number i is, in the mesh of the whole or of a part; else nothing.
+  const std::optional<LayerThickness>& layer(std::size_t i) const { return of_[i].layer; }
+  // Shapes of contact(i) around that of the scene; nothing where i is no number of a shape.
+  const std::optional<ShapeChange>& shape(std::size_t i) const { return of_[i].shape; }
   const std::string& contact(std::size_t i) const {
     return of_[i].contact;
-  }  // whose friction it is; empty: a number of laws
+  }  // whose friction or shape it is; empty: a number of laws, or a thickness
   bool linear(std::size_t i) const { return of_[i].linear; }  // forces and energy are linear in it
   double step(std::size_t i) const;  // of a difference, central but where they are
 
@@ -58,7 +67,12 @@ class SceneParameters {
     int family = -1;          // whose angle it is
     bool linear = false;
     double modulus = 0;  // where it is: the largest of its law [MPa]
+    std::optional<LayerThickness> layer = {};
+    std::optional<ShapeChange> shape = {};
   };
+  bool take_shape(const std::string& key, const SolveConfig& config, const Error& refused);
+  bool take_thickness(const std::string& key, const SolveConfig& config, const Mesh& mesh,
+                      const Scene& scene, const Error& refused);
   void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
             const Error& refused);
 

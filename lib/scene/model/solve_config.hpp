@@ -96,7 +96,8 @@ struct ContactConfig {
     v(&ContactConfig::rigid, "rigid", unit::none,
       "shape and place of the indenter; or `against` instead");
     v(&ContactConfig::against, "against", unit::none,
-      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8");
+      "the set of facets that `on` touches, instead of `rigid`: two deformable surfaces of hex8; the "
+      "set of `on` itself: a surface that may fold and touch itself");
     v(&ContactConfig::friction, "friction", unit::none, "Coulomb coefficient", between(0, 10),
       Hint{
           "Coulomb coefficient without unit, no percentage and no angle: 34 % is 0.34, an angle of friction of 34 degrees is "
@@ -164,13 +165,7 @@ struct ContactConfig {
     refuse(control.has_value(), "control", "a load {force: ...} pushes a body");
     refuse(rotation.has_value(), "rotation", "a load {rotation: ...} turns a set");
     refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
-    if (on.empty())
-      found.push_back({"on", "missing", "the set that touches `against`", ""});
-    else if (on == *against)
-      found.push_back(
-          {"against", "found the set of `on`", "the set of another surface",
-           "a surface that touches itself is not computed yet: name two parts of it that "
-           "share no node"});
+    if (on.empty()) found.push_back({"on", "missing", "the set that touches `against`", ""});
     return found;
   }
   std::vector<Complaint> of_rotation() const {
@@ -233,6 +228,7 @@ struct SceneBodyConfig {
   std::optional<FibreField> fibre_field;
   std::vector<SupportConfig> supports;
   std::vector<LoadConfig> loads;
+  std::optional<std::array<double, 3>> velocity, spin;
   static void fields(auto& v) {
     v(&SceneBodyConfig::mesh, "mesh", unit::none, "its mesh", required);
     v(&SceneBodyConfig::material, "material", unit::none,
@@ -243,6 +239,11 @@ struct SceneBodyConfig {
       "directions that vary from cell to cell");
     v(&SceneBodyConfig::supports, "supports", unit::none, "sets of this mesh that are held");
     v(&SceneBodyConfig::loads, "loads", unit::none, "loads on sets of this mesh");
+    v(&SceneBodyConfig::velocity, "velocity", "mm/s",
+      "with dynamics: of this body at the beginning; none: that of dynamics");
+    v(&SceneBodyConfig::spin, "spin", "1/s",
+      "with dynamics: angular velocity of this body at the beginning, about the middle of its box; "
+      "none: it moves as dynamics says");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
@@ -279,12 +280,13 @@ struct AccuracyConfig {
   AccuracyConfig(const char* wanted) : within(wanted) {}
   static void fields(auto& v) {
     v(&AccuracyConfig::of, "of", unit::none,
-      "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point>; or the kind alone, "
-      "such as reaction, for all of that kind. None: the force of indenters that move as given, the travel of one under force "
-      "control, else the reactions of moved sets, else the displacements of points");
+      "the quantity: force, force_<contact>, reaction_<set>, torque_<name>, travel_<contact>, displacement_<point> (or "
+      "displacement@<point>), apex_height, pull_off, von_mises_max; or the kind alone, "
+      "such as reaction, for all of that kind. None: the force of indenters that move as given and the pull-off of those that adhere, "
+      "the travel of one under force control, else the reactions of moved sets, else the displacements of points");
     v(&AccuracyConfig::at, "at", unit::none,
-      "where on the path: at its end, where the quantity is largest, or at every step. None: at the end, or at the largest value where "
-      "the path ends below half of it");
+      "where on the path: at its end, where the quantity is largest, or at every step, relative to the largest value. None: at the "
+      "end, or at the largest value where the path ends below half of it");
     v(&AccuracyConfig::within, "within", unit::none, "wanted error, such as 1%", required);
   }
   std::vector<Complaint> complaints() const {
@@ -293,15 +295,23 @@ struct AccuracyConfig {
       found.push_back(
           {"within", "found \"" + within + "\"", "a percentage above 0, such as 1%", ""});
     const auto known = std::array{"force", "reaction", "torque", "travel", "displacement"};
+    const auto alone = std::array{"apex_height", "pull_off", "von_mises_max"};
     const auto is_of = [&](const char* kind) {
-      return *of == kind || of->starts_with(std::string(kind) + "_");
+      return *quantity() == kind || quantity()->starts_with(std::string(kind) + "_");
     };
-    if (of && std::none_of(known.begin(), known.end(), is_of))
+    if (of && std::none_of(known.begin(), known.end(), is_of) &&
+        std::find(alone.begin(), alone.end(), *of) == alone.end())
       found.push_back(
           {"of", "found \"" + *of + "\"",
-           "force, reaction, torque, travel or displacement, or one of them with _ and a name",
+           "force, reaction, torque, travel or displacement, or one of them with _ and a name; or apex_height, pull_off or von_mises_max",
            ""});
     return found;
+  }
+  // `of` as results name it: displacement@P is displacement_P.
+  std::optional<std::string> quantity() const {
+    constexpr std::string_view at_point = "displacement@";
+    if (!of || !of->starts_with(at_point)) return of;
+    return "displacement_" + of->substr(at_point.size());
   }
 };
 
@@ -518,13 +528,22 @@ struct SolveConfig {
                          "one that follows `motion`",
                          "errors are estimated of its force, which is given here"});
       else if (contacts.empty() && !moved && !(mesh && !mesh->points.empty()) &&
-               (accuracy || fidelity || refines))
+               (accuracy || fidelity || refines) && !(accuracy && accuracy->of))
         found.push_back(
             {key, "found where forces alone load the body",
              "an indenter, an imposed displacement, or points in the mesh",
              "errors are estimated of the force that it needs, or of the displacement of mesh.points; estimate: recovery reports "
              "that of the stress"});
     }
+    if (accuracy && estimate == EstimateBy::dual && accuracy->at &&
+        *accuracy->at != AccuracyAt::end)
+      found.push_back({"accuracy.at", "found together with estimate: dual", "end",
+                       "a dual solution is of one state; estimate: refinement judges the path"});
+    if (accuracy && estimate == EstimateBy::recovery && accuracy->of == "von_mises_max" &&
+        accuracy->at && *accuracy->at != AccuracyAt::end)
+      found.push_back(
+          {"accuracy.at", "found together with estimate: recovery", "end",
+           "the spread of stresses is looked at in the last step; estimate: refinement judges the path"});
     complain_of_instabilities(found);
     if (on_unstable == OnUnstable::stop && stability == StabilityCheck::off)
       found.push_back({"on_unstable", "stop, while stability is off",
@@ -591,6 +610,16 @@ struct SolveConfig {
         found.push_back({"contacts." + name + ".free", "found without dynamics",
                          "dynamics: {density_kg_m3: 1100}",
                          "an indenter with mass moves in time, with a body that has inertia"});
+    for (const auto& [name, body] : bodies) {
+      if (in_motion()) break;
+      const auto moves = [&](bool given, const char* key) {
+        if (!given) return;
+        found.push_back({"bodies." + name + "." + key, "found without dynamics",
+                         "dynamics: {density_kg_m3: 1100}", "an equilibrium has no velocity"});
+      };
+      moves(body.velocity.has_value(), "velocity");
+      moves(body.spin.has_value(), "spin");
+    }
     if (!in_motion()) return;
     const auto refuse = [&](const std::string& key, const std::string& expected) {
       found.push_back({key, "found together with dynamics", expected, "it is for equilibria"});
@@ -598,7 +627,6 @@ struct SolveConfig {
     if (path.arc_length) refuse("path.arc_length", "path: {seconds: ...}");
     if (branch) refuse("branch", "none");
     if (imperfection) refuse("imperfection", "none");
-    if (!bodies.empty()) refuse("bodies", "one mesh");
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (loads[i].volume) refuse("loads[" + std::to_string(i) + "].volume", "pressure");
     if (!path.seconds)
@@ -622,17 +650,13 @@ struct SolveConfig {
     const auto unlike = [&](const std::string& key, const std::string& hint) {
       found.push_back({key, "found with scheme: energy_momentum", "another scheme", hint});
     };
-    if (supports.empty())
-      unlike(
-          "dynamics.scheme",
-          "of a body in free flight Newton's method does not find the force that keeps its energy");
     for (const auto& [name, contact] : contacts)
       unlike("contacts." + name,
              "its balance is that of the middle of a step, and contact at its end");
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (!loads[i].on_surface())
         unlike("loads[" + std::to_string(i) + "]",
-               "sets that are moved do work between the ends of a step");
+               "the velocity of a set that is moved would alternate from step to step");
     if (material && is_viscous(*material))
       unlike("material", "viscous branches know the end of a step");
   }

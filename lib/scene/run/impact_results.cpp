@@ -1,14 +1,41 @@
 #include "scene/run/impact_results.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/base/text.hpp"
 
 namespace langer {
 
-ImpactResults::ImpactResults(const Scene& scene) {
-  moves_ = scene.motion.has_value() && !scene.contacts.empty();
+namespace {
+
+double smallest_gap(const StepRecord& step) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& [name, contact] : step.contacts) {
+    for (double gap : contact.gap) smallest = std::min(smallest, gap);
+  }
+  return smallest;
+}
+
+// Where the line through two points (x, y) reaches 0, within [low, high].
+double zero_of_line(std::pair<double, double> a, std::pair<double, double> b, double low,
+                    double high) {
+  const double slope = (b.second - a.second) / (b.first - a.first);
+  if (slope == 0) return 0.5 * (low + high);
+  return std::clamp(a.first - a.second / slope, low, high);
+}
+
+}  // namespace
+
+ImpactResults::ImpactResults(const Scene& scene, const Inertia* inertia) {
+  moves_ = inertia && !(scene.contacts.empty() && scene.surfaces.empty());
   if (!moves_) return;
+  for (const SurfaceContact& surface : scene.surfaces) surfaces_.push_back(surface.name);
+  const std::vector<MovingBody>& bodies = inertia->options().bodies;
+  if (!surfaces_.empty() && bodies.size() == 2) {
+    for (const MovingBody& body : bodies) pair_.emplace_back(body.name, inertia->mass_of(body));
+  }
   free_ = scene.motion->travel_mass > 0;
   State start;
   start.speed = scene.motion->travel_velocity;
@@ -19,10 +46,17 @@ void ImpactResults::add(const StepRecord& step) {
   if (!moves_) return;
   State state;
   state.time = step.scalars.at("time");
-  state.force = step.force_ind.norm();
+  if (surfaces_.empty()) state.force = step.force_ind.norm();
+  for (const std::string& name : surfaces_) state.force += step.scalars.at("force_" + name);
+  state.gap = smallest_gap(step);
   state.speed = value_or(step.scalars, "indenter_velocity", 0);
   for (int k = 0; k < 3; ++k) {
     state.momentum[k] = step.scalars.at(std::string("momentum_") + "xyz"[k]);
+    double sign = 1;
+    for (const auto& [name, mass] : pair_) {
+      state.separation[k] += sign * step.scalars.at("momentum_" + name + "_" + "xyz"[k]) / mass;
+      sign = -1;
+    }
   }
   states_.push_back(state);
 }
@@ -41,22 +75,43 @@ std::vector<Summary> ImpactResults::summary() const {
   if (first == 0) return {};
   std::vector<Summary> out{{"peak_force", peak, "N"}};
   if (last + 1 >= states_.size()) return out;
-  // The time at which the line through two forces reaches 0, within [low, high].
-  const auto zero_of = [](const State& near, const State& next, double low, double high) {
-    const double slope = (next.force - near.force) / (next.time - near.time);
-    if (slope == 0) return 0.5 * (low + high);
-    return std::clamp(near.time - near.force / slope, low, high);
-  };
-  double begin = states_[first].time;
-  double end = states_[last].time;
-  if (last > first) {
-    begin =
-        zero_of(states_[first], states_[first + 1], states_[first - 1].time, states_[first].time);
-    end = zero_of(states_[last], states_[last - 1], states_[last].time, states_[last + 1].time);
-  }
-  out.push_back({"contact_time", end - begin, "s"});
+  out.push_back({"contact_time", parting_time(last) - touch_time(first), "s"});
+  if (!surfaces_.empty() && pair_.empty()) return out;  // the momentum of all is that of the start
   out.push_back({"restitution", restitution(first, last), "-"});
   return out;
+}
+
+// Between the last state before the contact and the first one in it.
+double ImpactResults::touch_time(std::size_t first) const {
+  const State& touching = states_[first];
+  const State& before = states_[first - 1];
+  // The state at rest is not recorded, and has no gap here.
+  if (first >= 3) {
+    const State& earlier = states_[first - 2];
+    return zero_of_line({before.time, before.gap}, {earlier.time, earlier.gap}, before.time,
+                        touching.time);
+  }
+  if (first == 2 && free_) {
+    const double rest = before.gap / before.speed;
+    return std::clamp(before.time + rest, before.time, touching.time);
+  }
+  const State& next = states_[std::min(first + 1, states_.size() - 1)];
+  return zero_of_line({touching.time, touching.force}, {next.time, next.force}, before.time,
+                      touching.time);
+}
+
+// Between the last state in contact and the first one after it.
+double ImpactResults::parting_time(std::size_t last) const {
+  const State& touching = states_[last];
+  const State& after = states_[last + 1];
+  if (last + 2 < states_.size()) {
+    const State& later = states_[last + 2];
+    return zero_of_line({after.time, after.gap}, {later.time, later.gap}, touching.time,
+                        after.time);
+  }
+  const State& earlier = states_[last - 1];
+  return zero_of_line({touching.time, touching.force}, {earlier.time, earlier.force}, touching.time,
+                      after.time);
 }
 
 double ImpactResults::restitution(std::size_t first, std::size_t last) const {
@@ -64,11 +119,14 @@ double ImpactResults::restitution(std::size_t first, std::size_t last) const {
   const State& after = states_[last + 1];
   if (free_) return -after.speed / before.speed;
   // The state at rest is not recorded: its momentum is that of the first step without contact.
-  const Vec3 p = first == 1 ? states_[first].momentum : before.momentum;
-  const Vec3 impulse = after.momentum - p;
+  const State& arrival = first == 1 ? states_[first] : before;
+  const bool two_bodies = !pair_.empty();
+  const Vec3 p = two_bodies ? arrival.separation : arrival.momentum;
+  const Vec3 p_after = two_bodies ? after.separation : after.momentum;
+  const Vec3 impulse = p_after - p;
   const double arriving = p.dot(impulse);
   if (arriving == 0) return 0;
-  return -after.momentum.dot(impulse) / arriving;
+  return -p_after.dot(impulse) / arriving;
 }
 
 }  // namespace langer

@@ -1,6 +1,7 @@
 #include "scene/run/motion_record.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "scene/model/scene_motion.hpp"
@@ -9,7 +10,7 @@
 namespace langer {
 
 std::unique_ptr<Inertia> inertia_of(const Reduction& reduction, Assembler& body,
-                                    const LoadPathOptions& path) {
+                                    const LoadPathOptions& path, const Place& place) {
   const Scene& scene = reduction.scene();
   if (!scene.motion) return nullptr;
   InertiaOptions options = *scene.motion;
@@ -19,8 +20,18 @@ std::unique_ptr<Inertia> inertia_of(const Reduction& reduction, Assembler& body,
     for (const RigidContact& contact : scene.contacts) {
       for (int node : contact.nodes) options.massless[static_cast<std::size_t>(node)] = 1;
     }
+    for (const SurfaceContact& surface : scene.surfaces) {
+      for (int node : surface.all_nodes) options.massless[static_cast<std::size_t>(node)] = 1;
+    }
   }
-  auto inertia = std::make_unique<Inertia>(body, std::move(options));
+  std::unique_ptr<Inertia> inertia;
+  try {
+    inertia = std::make_unique<Inertia>(body, std::move(options));
+  } catch (const std::invalid_argument& refused) {
+    throw Failure(Exit::config, Error{place, "dynamics.contact_mass", refused.what(),
+                                      "at least four cells across the body, or kept",
+                                      "nodes that may touch lose their mass to those behind"});
+  }
   body.set_added_term(inertia.get());
   return inertia;
 }
@@ -59,6 +70,10 @@ void record_motion(const Statics& statics, const Assembler& body, StepRecord& re
   scalars["kinetic_energy_at_start"] = statics.inertia()->at_start_kinetic();
   const Vec3 momentum = statics.inertia()->momentum(motion);
   for (int k = 0; k < 3; ++k) scalars[std::string("momentum_") + "xyz"[k]] = momentum[k];
+  for (const MovingBody& one : statics.inertia()->options().bodies) {
+    const Vec3 of_one = statics.inertia()->momentum(motion, one);
+    for (int k = 0; k < 3; ++k) scalars["momentum_" + one.name + "_" + "xyz"[k]] = of_one[k];
+  }
   if (statics.inertia()->options().travel_mass > 0) {
     scalars["indenter_velocity"] = motion.travel_v;
     scalars["indenter_acceleration"] = motion.travel_a;

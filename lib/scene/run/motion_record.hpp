@@ -10,7 +10,7 @@ namespace langer {
 
 // The inertia of the part that is solved, joined to its balance; none of a scene at rest.
 std::unique_ptr<Inertia> inertia_of(const Reduction& reduction, Assembler& body,
-                                    const LoadPathOptions& path);
+                                    const LoadPathOptions& path, const Place& place);
 
 // The path with the increments that the motion asks for.
 LoadPathOptions motion_path(const Scene& scene, LoadPathOptions path);

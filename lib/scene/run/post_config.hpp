@@ -13,6 +13,7 @@
 #include "results/post/cycle.hpp"
 #include "results/post/figure.hpp"
 #include "results/post/map.hpp"
+#include "results/post/reading.hpp"
 #include "results/post/render.hpp"
 #include "results/post/steps.hpp"
 
@@ -27,6 +28,7 @@ struct PostConfig {
   std::vector<ColumnChoice> columns, further;
   std::map<std::string, std::string> summary_at;
   std::map<std::string, CycleChoice> cycles;
+  std::map<std::string, ReadingChoice> readings;
   std::vector<std::string> snapshots;
   bool series = false;
   std::map<std::string, FigureChoice> figures;
@@ -47,6 +49,9 @@ struct PostConfig {
       "the table, t=0.5 or u_ind=0.5, and the path must stop there");
     v(&PostConfig::cycles, "cycles", unit::none,
       "of periodic tests, by name: storage_<name>, loss_<name> and tan_delta_<name> of the last cycle, in the summary");
+    v(&PostConfig::readings, "readings", unit::none,
+      "what devices report, by name, in the summary: a column at a force or depth, a stiffness, the hysteresis of a cycle, R0 to R9 of "
+      "a suction");
     v(&PostConfig::snapshots, "snapshots", unit::none,
       "states written as snapshot_<row>.hdf for ParaView: last, a row of the table (0 is unloaded), t=0.5 or u_ind=0.5");
     v(&PostConfig::series, "series", unit::none,
@@ -111,6 +116,19 @@ inline std::vector<Complaint> PostConfig::complaints() const {
       if (seen.count(part + name))
         all.push_back(
             {"cycles." + name, "a column is called " + (part + name), "another name", ""});
+  }
+  for (const auto& [name, reading] : readings) {
+    const std::string key = "readings." + name;
+    if (!is_column_name(name)) all.push_back({key, "\"" + name + "\"", column_letters, ""});
+    if (seen.count(name)) all.push_back({key, "the name of a column", "another name", ""});
+    for (const auto& [part, column] : {std::pair{".value_of", &reading.value_of},
+                                       {".slope_of", &reading.slope_of},
+                                       {".hysteresis_of", &reading.hysteresis_of},
+                                       {".suction_of", &reading.suction_of},
+                                       {".over", &reading.over}})
+      if (*column && !seen.count(**column))
+        all.push_back(
+            {key + part, "\"" + **column + "\"", "the name of a column, without its unit", ""});
   }
   for (const auto& [name, map] : maps) {
     if (!is_column_name(name))

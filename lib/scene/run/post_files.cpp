@@ -2,6 +2,7 @@
 #include "scene/model/scene_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -254,24 +255,47 @@ Outline outline_at(const RigidContact& indenter, double t, const Shown& shown) {
   return moved;
 }
 
+namespace {
+
 // Tractions and pressures of a solution, from the config that it carries; none if it has none.
-Loads loads_of(const SolutionHeader& header) {
+std::vector<SurfaceLoad> surface_loads_of(const SolutionHeader& header) {
   try {
     const auto solve =
         read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
             .config;
     std::vector<Error> errors;
-    const Section* section = header.mesh.section ? &*header.mesh.section : nullptr;
     std::vector<SurfaceLoad> loads = surface_loads(
         solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
-    if (loads.empty() || !errors.empty()) return {};
-    std::size_t n = 0;
-    if (section) n = static_cast<std::size_t>(header.mesh.n_cells());
-    return {header.mesh, std::move(loads),
-            std::vector<double>(n, section ? cell_share(*section) : 1)};
+    if (!errors.empty()) return {};
+    return loads;
   } catch (const Failure&) {
     return {};  // written by another version of solve
   }
+}
+
+}  // namespace
+
+Loads loads_of(const SolutionHeader& header) {
+  std::vector<SurfaceLoad> loads = surface_loads_of(header);
+  if (loads.empty()) return {};
+  const Section* section = header.mesh.section ? &*header.mesh.section : nullptr;
+  std::size_t n = 0;
+  if (section) n = static_cast<std::size_t>(header.mesh.n_cells());
+  return {header.mesh, std::move(loads),
+          std::vector<double>(n, section ? cell_share(*section) : 1)};
+}
+
+std::function<double(double)> applied_pressure(const SolutionHeader& header) {
+  // A history is a factor of the largest value, so the largest factor is that of the largest load.
+  SurfaceLoad largest;
+  for (SurfaceLoad& load : surface_loads_of(header)) {
+    if (!load.volume && std::abs(load.pressure) > std::abs(largest.pressure))
+      largest = std::move(load);
+  }
+  return [pressure = largest.pressure, factor = largest.factor](double t) {
+    if (pressure == 0) return 0.0;
+    return pressure * factor_at(factor, t);
+  };
 }
 
 // What the balance of energy needs of a step: displacements, forces at supports, at contacts and of

@@ -2,6 +2,7 @@
 // indenters.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -67,6 +68,9 @@ Shown shown_of(const Mesh& mesh);
 Outline outline_at(const RigidContact& indenter, double t, const Shown& shown);
 // Forces on its surface as that config tells; empty where there are none.
 Loads loads_of(const SolutionHeader& header);
+// The pressure at t [MPa], positive into the body, of the load with the largest one; 0 without such
+// a load.
+std::function<double(double t)> applied_pressure(const SolutionHeader& header);
 // The record as a state of an energy path; reactions in the order of the indenters.
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
                                const Loads& loads);

@@ -28,7 +28,7 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
   at_a_point = at_a_point && !on_a_mesh;
   const SymmetryChoice wanted = all_of_it ? SymmetryChoice::none : config.symmetry;
   // A change of fibre angles would shear a body that is only stretched: no single hexahedron then.
-  if (at_a_point && !scene.motion && !parameters.turns_fibres())
+  if (at_a_point && !scene.motion && !parameters.turns_fibres() && !parameters.moves_mesh())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
   if (config.sensitivity.empty())
@@ -69,6 +69,14 @@ Assembler Reduction::assembler(std::optional<Division> division) const {
   const int threads = point_ ? 1 : threads_;
   return Assembler(mesh(), scene().materials, scene().directions, scene().formulation, scene().dofs,
                    threads, Kernel::packets, share, std::move(division), std::move(loads));
+}
+
+std::unique_ptr<Assembler> Reduction::assembler_on(const Mesh& moved) const {
+  std::vector<double> share;
+  if (part_) share = part_->cell_share();
+  return std::make_unique<Assembler>(moved, scene().materials, scene().directions,
+                                     scene().formulation, scene().dofs, threads_, Kernel::packets,
+                                     share);
 }
 
 Solver Reduction::solver(const Solver& asked) const {

@@ -36,6 +36,8 @@ class Reduction {
   const Mesh& mesh() const;  // of the part, as what follows
   const Scene& scene() const;
   Assembler assembler(std::optional<Division> division = {}) const;
+  // Of the elements alone where nodes of mesh() lie elsewhere at rest; refers to `moved`.
+  std::unique_ptr<Assembler> assembler_on(const Mesh& moved) const;
   Solver solver(
       const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
   std::string words()

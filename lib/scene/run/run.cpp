@@ -1,6 +1,7 @@
 #include "scene/run/run.hpp"
 #include "core/base/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
@@ -37,6 +38,15 @@ StaticsOptions with_inertia(StaticsOptions options, Inertia* inertia) {
   return options;
 }
 
+// energy_momentum keeps energies to what Newton's method leaves of the balance, thousands of times.
+Solver with_tolerance(Solver solver, const Inertia* inertia) {
+  if (!inertia || !inertia->conserves()) return solver;
+  if (auto* newton = std::get_if<NewtonOptions>(&solver)) {
+    newton->relative = std::min(newton->relative, 1e-11);
+  }
+  return solver;
+}
+
 }  // namespace
 
 Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& material,
@@ -46,11 +56,11 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
       reduction(Reduction::find(mesh, scene, config, where, at_a_point)),
       body(
           reduction.assembler(by_ranks ? divided(reduction, config, serial_reason) : std::nullopt)),
-      inertia(inertia_of(reduction, body, config.path)),
+      inertia(inertia_of(reduction, body, config.path, where("dynamics"))),
       statics(body, reduction.scene().contacts, with_inertia(threads_of(config), inertia.get()),
               reduction.scene().surfaces),
       path(motion_path(scene, config.path)),
-      solver(reduction.solver(config.solver)) {}
+      solver(with_tolerance(reduction.solver(config.solver), inertia.get())) {}
 
 Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
          const LoadPathOptions& path_, Solver solver_, const StaticsOptions& options)
@@ -58,12 +68,12 @@ Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
       body(reduction.assembler()),
-      inertia(inertia_of(reduction, body, path_)),
+      inertia(inertia_of(reduction, body, path_, {})),
       statics(body, reduction.scene().contacts,
               with_inertia(with_seconds(options, path_), inertia.get()),
               reduction.scene().surfaces),
       path(motion_path(scene, path_)),
-      solver(std::move(solver_)) {}
+      solver(with_tolerance(std::move(solver_), inertia.get())) {}
 
 // Restores a recorded step and the one before it. Both are needed for the same continuation to the
 // last digit: the first trial state is extrapolated from them.

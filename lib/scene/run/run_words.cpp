@@ -12,10 +12,10 @@ double report_scene(const Voice& voice, const Run& run) {
   FibreJump jump = FibreJump{};
   if (run.scene.families() > 0) jump = largest_jump(run.mesh, run.scene.directions);
   if (jump.degrees > 1e-3)
-    voice.say(
+    voice.detail(
         "fibres turn by up to {:.3g} degrees between neighbours: cells {} and {}, at ({:.4g}, {:.4g}, {:.4g}) mm",
         jump.degrees, jump.cell, jump.neighbour, jump.place[0], jump.place[1], jump.place[2]);
-  if (const std::string words = run.reduction.words(); !words.empty()) voice.say("{}", words);
+  if (const std::string words = run.reduction.words(); !words.empty()) voice.detail("{}", words);
   return jump.degrees;
 }
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tensor/stress.hpp"
 #include "mechanics/mesh/section.hpp"
+#include "results/post/energy_columns.hpp"
+#include "results/post/nodal_fields.hpp"
 #include "scene/model/torque.hpp"
 
 namespace langer {
@@ -38,6 +41,56 @@ void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whol
     if (scene.contacts.size() > 1) forces.touching["force_" + contact.name] = n;
     const auto [fewest, first] = forces.touching.try_emplace("force", n);
     fewest->second = std::min(fewest->second, n);
+  }
+}
+
+// The pull of the bonds of all indenters that adhere, the greatest of them, and how many nodes of
+// the front of a section (of a block all) it comes from.
+void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, StepForces& forces) {
+  int front = mesh.n_nodes();
+  if (mesh.section) front = n_front(mesh);
+  for (const RigidContact& contact : scene.contacts) {
+    const ContactRecord& record = whole.contacts.at(contact.name);
+    if (record.adhesive.empty()) continue;
+    double travel = 0;
+    if (contact.control) travel = whole.scalars.at("travel_" + contact.name);
+    const Vec3 at = indenter_displacement(contact, whole.t, travel);
+    const double pull = pull_force(contact, mesh, whole.u, record.r, record.adhesive, at);
+    forces.pull = std::max(forces.pull, pull);
+    double n = 0;
+    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+      const bool bears = !record.r[i].isZero(0) || !record.adhesive[i].isZero(0);
+      if (contact.nodes[i] < front && bears) ++n;
+    }
+    forces.of["pull_off"] = forces.pull;
+    forces.touching["pull_off"] = std::max(forces.touching["pull_off"], n);
+  }
+}
+
+double apex_height(const Mesh& mesh, const std::vector<Vec3>& u) {
+  const auto point = mesh.node_sets.find("apex");
+  if (point != mesh.node_sets.end() && point->second.size() == 1)
+    return u[static_cast<std::size_t>(point->second[0])][1];
+  double highest = 0;
+  const auto top = mesh.node_sets.find("top");
+  if (top == mesh.node_sets.end()) return 0;
+  for (int node : top->second) highest = std::max(highest, u[static_cast<std::size_t>(node)][1]);
+  return highest;
+}
+
+// What a config asks an accuracy of, beside forces.
+void add_asked(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
+               const StepRecord& whole, StepForces& forces) {
+  if (!config.accuracy || !config.accuracy->of) return;
+  const std::string asked = *config.accuracy->quantity();
+  if (asked == "apex_height") forces.of[asked] = apex_height(mesh, whole.u);
+  if (asked == "von_mises_max" && !has_viscous_law(scene))
+    forces.of[asked] = largest_von_mises(scene, mesh, whole.u);
+  if (!asked.starts_with("displacement")) return;
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    const std::string quantity = "displacement_" + name;
+    if (nodes.size() != 1 || !(asked == "displacement" || asked == quantity)) continue;
+    forces.of[quantity] = whole.u[static_cast<std::size_t>(nodes[0])].norm();
   }
 }
 
@@ -79,7 +132,48 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
     for (int n : mesh.node_sets.at(set)) reaction += whole.reaction[static_cast<std::size_t>(n)];
     forces.of["reaction_" + set] = reaction.norm();
   }
+  add_pull(scene, mesh, whole, forces);
+  add_asked(config, scene, mesh, whole, forces);
   return forces;
+}
+
+void append_step(std::vector<StepForces>& path, StepForces step) {
+  const auto pull = step.of.find("pull_off");
+  if (pull != step.of.end() && !path.empty()) {
+    const StepForces& before = path.back();
+    if (before.of.at("pull_off") > pull->second) {
+      pull->second = before.of.at("pull_off");
+      step.touching["pull_off"] = before.touching.at("pull_off");
+    }
+  }
+  path.push_back(std::move(step));
+}
+
+double pull_between_steps(const std::vector<StepForces>& path) {
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].pull > path[top].pull) top = i;
+  if (top == 0 || top + 1 >= path.size()) return 0;
+  const StepForces& here = path[top];
+  const double left = (here.pull - path[top - 1].pull) / (here.t - path[top - 1].t);
+  const double right = (path[top + 1].pull - here.pull) / (path[top + 1].t - here.t);
+  const double curvature = (right - left) / (path[top + 1].t - path[top - 1].t);
+  if (!(curvature < 0)) return 0;
+  const double slope = left + curvature * (here.t - path[top - 1].t);
+  return -0.25 * slope * slope / curvature;
+}
+
+bool has_viscous_law(const Scene& scene) { return ViscousPoints::needed(scene.materials); }
+
+double largest_von_mises(const Scene& scene, const Mesh& mesh, const std::vector<Vec3>& u) {
+  const Body body(mesh, scene.materials, scene.directions, scene.formulation);
+  const GaussValues gauss = gauss_values(body, u);
+  double most = 0;
+  for (int n = 0; n < mesh.n_nodes(); ++n) {
+    const VecX row = node_values(body, n, gauss, StressAt::nodal_average);
+    most = std::max(most, von_mises(sigma_of(row)));
+  }
+  return most;
 }
 
 double force_at(const std::vector<StepForces>& path, const std::string& name, double t) {
@@ -97,7 +191,7 @@ RunListener collecting(RunListener listener, const SolveConfig& config, const Ru
   listener.of_whole = [&, also = std::move(listener.of_whole)](StepRecord& whole,
                                                                const SolveReport& report) {
     if (also) also(whole, report);
-    path.push_back(step_forces(config, run.scene, run.mesh, whole));
+    append_step(path, step_forces(config, run.scene, run.mesh, whole));
   };
   return listener;
 }
