@@ -25,6 +25,7 @@
 #include "pipeline/plan/expand.hpp"
 #include "scene/model/make_mesh.hpp"
 #include "scene/model/scene.hpp"
+#include "scene/model/scene_bodies.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "support/slow_build.hpp"
 
@@ -325,7 +326,8 @@ TEST_CASE("mutations of the shipped configs of solve with the scene composed") {
   int composed = 0;
   for (const fs::path& path : yaml_files("configs/solve")) {
     const auto compose = [&](Tree tree, const Mesh& mesh) {
-      const auto loaded = read_config<SolveConfig>(std::move(tree));
+      auto loaded = read_config<SolveConfig>(std::move(tree));
+      expand_bodies(loaded.config, loaded.where.tree);
       make_scene(loaded.config, mesh, loaded.config.material ? loaded.config.material : material,
                  loaded.where);
     };

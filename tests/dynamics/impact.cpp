@@ -41,9 +41,9 @@ TEST_CASE("the pressure on a bar rings if contact nodes keep their mass") {
   theta.scheme = Scheme::theta;
   InertiaOptions kept;
   kept.rho_inf = 1;
-  const Pressure moved_inwards = bar_on_wall(cells, 1, without_contact_mass(1));
-  const Pressure impulses = bar_on_wall(cells, 1, theta);
-  const Pressure ringing = bar_on_wall(cells, 1, kept);
+  const test::Pressure moved_inwards = test::bar_on_wall(cells, 1, without_contact_mass(1));
+  const test::Pressure impulses = test::bar_on_wall(cells, 1, theta);
+  const test::Pressure ringing = test::bar_on_wall(cells, 1, kept);
   CHECK(moved_inwards.rms < 0.005);
   CHECK(impulses.rms < 0.005);
   CHECK(std::abs(impulses.energy) < 1e-4);

@@ -14,7 +14,7 @@ using namespace langer::test;
 namespace {
 
 double summed(const Ended& run, const std::string& name) {
-  ImpactResults results(run.scene);
+  ImpactResults results(run.scene, nullptr);
   for (const StepRecord& step : run.steps) results.add(step);
   for (const Summary& one : results.summary()) {
     if (one.name == name) return one.value;

@@ -59,7 +59,7 @@ struct Sample {
                    {"contact_radius", 0.9},      {"contact_pressure_max", 0.04},
                    {"load_factor", 0.7},         {"load_pressure", 0.02},
                    {"pumped_volume", 4},         {"kinetic_energy", 0.6},
-                   {"energy_balance", -0.01}};
+                   {"energy_balance", -0.01},    {"applied_pressure", 0.03}};
     for (int i = 0; i < mesh.n_nodes(); ++i) {
       s.velocity.push_back(Vec3(1 + i, -2, 0.5 * i));
       s.acceleration.push_back(Vec3(30, 20 + i, -10));

@@ -17,11 +17,6 @@ namespace langer {
 
 namespace {
 
-// Cells of mean dilatation resist changes of their whole volume only. Under strong compression a
-// compressible one folds inside, and no equilibrium is found. Plain displacement cells do not, and
-// up to this ratio of the bulk to the shear modulus (a Poisson's ratio of 0.49) they hardly lock.
-constexpr double compressible = 50;
-
 // A critical point as solution_critical.csv beside solution.h5, and its mode as solution_mode.vtu.
 // Both are there for a run that ends before the end of its path, too.
 void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const std::string& output) {
@@ -33,16 +28,6 @@ void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const st
   for (const Vec3& u : point.mode)
     for (int k = 0; k < 3; ++k) field.values.push_back(u[k]);
   write_vtu(name + "_mode.vtu", mesh, point.t, {field}, {});
-}
-
-bool compressible_cells_fold(const Assembler& body) {
-  if (body.formulation() != Formulation::mean_dilatation) return false;
-  if (body.mesh().type != CellType::hex8) return false;
-  for (int e = 0; e < body.mesh().n_cells(); ++e) {
-    const Material& material = body.material(e);
-    if (bulk_modulus(material) > compressible * shear_modulus(material)) return false;
-  }
-  return true;
 }
 
 // What helps where no equilibrium is found; continues "kept: 3 steps in x.part (".
@@ -59,11 +44,6 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
         "t: {:g} times their values), impose a displacement and no force, or follow the path past its limit point with "
         "path.arc_length",
         reached, reached);
-  }
-  if (compressible_cells_fold(run.body)) {
-    return "a run of this config continues from there); the material is compressible enough for "
-           "formulation: displacement, whose elements resist folding at every Gauss point and go "
-           "further: that starts again";
   }
   if (run.body.loads().follow())
     return "the next run continues from there); the tangent of a pressure whose rim is free is not "

@@ -1,6 +1,7 @@
 #include "scene/run/impact_results.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -29,12 +30,13 @@ double zero_of_line(std::pair<double, double> a, std::pair<double, double> b, do
 }  // namespace
 
 ImpactResults::ImpactResults(const Scene& scene, const Inertia* inertia) {
-  moves_ = inertia && !(scene.contacts.empty() && scene.surfaces.empty());
+  moves_ = scene.motion && !(scene.contacts.empty() && scene.surfaces.empty());
   if (!moves_) return;
   for (const SurfaceContact& surface : scene.surfaces) surfaces_.push_back(surface.name);
-  const std::vector<MovingBody>& bodies = inertia->options().bodies;
-  if (!surfaces_.empty() && bodies.size() == 2) {
-    for (const MovingBody& body : bodies) pair_.emplace_back(body.name, inertia->mass_of(body));
+  if (inertia && !surfaces_.empty() && inertia->options().bodies.size() == 2) {
+    for (const MovingBody& body : inertia->options().bodies) {
+      pair_.emplace_back(body.name, inertia->mass_of(body));
+    }
   }
   free_ = scene.motion->travel_mass > 0;
   State start;
@@ -86,7 +88,8 @@ double ImpactResults::touch_time(std::size_t first) const {
   const State& touching = states_[first];
   const State& before = states_[first - 1];
   // The state at rest is not recorded, and has no gap here.
-  if (first >= 3) {
+  // Surfaces that face nothing have no finite gap.
+  if (first >= 3 && std::isfinite(states_[first - 2].gap) && std::isfinite(before.gap)) {
     const State& earlier = states_[first - 2];
     return zero_of_line({before.time, before.gap}, {earlier.time, earlier.gap}, before.time,
                         touching.time);
@@ -104,7 +107,8 @@ double ImpactResults::touch_time(std::size_t first) const {
 double ImpactResults::parting_time(std::size_t last) const {
   const State& touching = states_[last];
   const State& after = states_[last + 1];
-  if (last + 2 < states_.size()) {
+  if (last + 2 < states_.size() && std::isfinite(after.gap) &&
+      std::isfinite(states_[last + 2].gap)) {
     const State& later = states_[last + 2];
     return zero_of_line({after.time, after.gap}, {later.time, later.gap}, touching.time,
                         after.time);

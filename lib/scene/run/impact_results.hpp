@@ -22,7 +22,7 @@ namespace langer {
 
 class ImpactResults {
  public:
-  // inertia: of the run, none of an equilibrium
+  // inertia: of the run; without it the restitution of two bodies is not known
   ImpactResults(const Scene& scene, const Inertia* inertia);
   void add(const StepRecord& step);  // in the order of the path
   std::vector<Summary> summary() const;
