@@ -20,7 +20,7 @@ std::vector<double> towards_zero(double length, int n, double h) {
   return {both.begin(), both.begin() + n + 1};
 }
 
-PathReport run(Statics& statics, double increment, const std::vector<double>& stops = {}) {
+PathReport follow_path(Statics& statics, double increment, const std::vector<double>& stops = {}) {
   LoadPathOptions path;
   path.first = path.largest = increment;
   return load_path(
@@ -56,7 +56,7 @@ TEST_CASE(
       test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
   Statics statics(body, {sphere}, {});
-  REQUIRE(run(statics, 0.5).complete);
+  REQUIRE(follow_path(statics, 0.5).complete);
   const double force = -4 * statics.defects()[0].force[1],
                hertz = 16. / 9 * E * std::sqrt(R) * std::pow(depth, 1.5);
   MESSAGE("force " << force << " N, Hertz " << hertz << " N");
@@ -84,7 +84,7 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
         test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation,
                           number_dofs(mesh.n_nodes(), held).dofs);
     Statics statics(body, {wedge}, {});
-    REQUIRE(run(statics, 0.05, {0.1}).complete);
+    REQUIRE(follow_path(statics, 0.05, {0.1}).complete);
     const ContactDefect defect = statics.defects()[0];
     const double friction = mu;
     CAPTURE(friction);

@@ -18,7 +18,7 @@ struct CellKind {
   int n;
   Formulation formulation;
 };
-constexpr CellKind cells[] = {
+constexpr CellKind viscous_cells[] = {
     {8, Formulation::mean_dilatation},    {8, Formulation::displacement},
     {27, Formulation::linear_dilatation}, {27, Formulation::displacement},
     {15, Formulation::linear_dilatation}, {15, Formulation::displacement}};
@@ -79,7 +79,7 @@ TEST_CASE("viscous cells: packets reproduce the scalar element, force and tangen
   Draw draw;
   for (const Material& material : materials()) {
     const auto a = fibre_directions(material);
-    for (const CellKind& kind : cells) {
+    for (const CellKind& kind : viscous_cells) {
       const int n = kind.n;
       const Formulation formulation = kind.formulation;
       const int n_p = n_pressures(formulation, n);
@@ -131,7 +131,7 @@ TEST_CASE("viscous cells: the tangent is the derivative of the force") {
   Draw draw;
   for (const Material& material : materials()) {
     const auto a = fibre_directions(material);
-    for (const CellKind& kind : cells) {
+    for (const CellKind& kind : viscous_cells) {
       const int n = kind.n;
       const Formulation formulation = kind.formulation;
       const ElementGeometry geometry = element_geometry(draw.nodes(n, spread_of(n)));

@@ -25,14 +25,14 @@ struct Part {
   std::string text;  // the fixed text, or the key
 };
 
-struct Pattern {
+struct NamePattern {
   std::vector<Part> parts;
   std::string mistake;
 };
 
 // Splits a pattern into its texts and the names in braces.
-Pattern parse_pattern(const std::string& pattern) {
-  Pattern parsed;
+NamePattern parse_pattern(const std::string& pattern) {
+  NamePattern parsed;
   std::set<std::string> seen;
   std::string text;
   const auto finish_text = [&] {
@@ -122,7 +122,7 @@ bool match(const std::vector<Part>& parts, std::size_t part, const std::string& 
 }  // namespace
 
 std::string mistake_in_pattern(const std::string& pattern) {
-  const Pattern parsed = parse_pattern(pattern);
+  const NamePattern parsed = parse_pattern(pattern);
   const auto any = std::count(pattern.begin(), pattern.end(), '*');
   if (parsed.mistake.empty() && any > 4) return "found more than four *";
   return parsed.mistake;
