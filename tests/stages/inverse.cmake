@@ -169,3 +169,12 @@ foreach(file material.h5 parameters.csv)
     message(FATAL_ERROR "a search without an optimum wrote ${file}")
   endif()
 endforeach()
+
+# A fit knows one body and rigid indenters.
+file(WRITE ${folder}/fold.yaml "data: [{kind: scene, solve: ${ROOT}/configs/solve/fold.yaml, file: fold.csv, columns: {t: t, force: force_N}}]
+law: {matrix: {yeoh: {a1: 0.01, a2: 0.01, a3: 0.01}}, volume: {quadratic: {d: 1.0e-3}}}
+parameters: [{key: matrix.yeoh.a1, lower: 0.001, upper: 1}]
+")
+file(WRITE ${folder}/fold.csv "t,force_N\n0,0\n0.2,0.02\n0.4,0.05\n0.6,0.1\n")
+run(2 ${BIN}/langer-fit fold.yaml -o fold/material.h5)
+expect_said("has several bodies or `against`; expected one body, and rigid indenters")

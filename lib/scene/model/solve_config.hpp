@@ -612,13 +612,13 @@ struct SolveConfig {
                          "an indenter with mass moves in time, with a body that has inertia"});
     for (const auto& [name, body] : bodies) {
       if (in_motion()) break;
-      const auto moves = [&](bool given, const char* key) {
-        if (!given) return;
+      std::vector<std::string> moves;
+      if (body.velocity) moves.push_back("velocity");
+      if (body.spin) moves.push_back("spin");
+      for (const std::string& key : moves) {
         found.push_back({"bodies." + name + "." + key, "found without dynamics",
                          "dynamics: {density_kg_m3: 1100}", "an equilibrium has no velocity"});
-      };
-      moves(body.velocity.has_value(), "velocity");
-      moves(body.spin.has_value(), "spin");
+      }
     }
     if (!in_motion()) return;
     const auto refuse = [&](const std::string& key, const std::string& expected) {
