@@ -47,6 +47,8 @@ class Editor {
     }
     if (n == path.size()) return replaced(parent_range, value);
     if (n + 1 < path.size()) refuse("its parent is not in the file");
+    if (path[n].key.empty() && path[n].index > static_cast<int>(parent->list.size()))
+      refuse("an item is added behind the last one of its list");
     return added(*parent, parent_range, flow, column, path[n], value);
   }
 
@@ -452,10 +454,15 @@ std::string edit_yaml(const std::string& text, const std::string& file, const st
     if (value->size() > 100'000) refuse(file, "the value is too long", "");
     if (value->find('\n') != std::string::npos) refuse(file, "the value has several lines", "");
     const Tree parsed = parse_yaml_as_written("[" + *value + "]", "the value");
-    if (parsed.kind != Tree::Kind::list || parsed.list.size() != 1)
+    // blanks around it belong to the line, and an edit made twice would add them twice
+    const std::size_t first = value->find_first_not_of(" \t\r");
+    if (first == std::string::npos || parsed.kind != Tree::Kind::list || parsed.list.size() != 1)
       refuse(file, "found \"" + *value + "\"", "a single value");
     change(expected, steps, 0, &parsed.list.front());
-    changed = editor.set(steps, *value);
+    if (std::string("&*!|>").find((*value)[first]) != std::string::npos)
+      refuse(file, "found \"" + *value + "\"", "a value without anchor, alias, tag or block text");
+    const std::size_t last = value->find_last_not_of(" \t\r");
+    changed = editor.set(steps, value->substr(first, last + 1 - first));
   } else {
     change(expected, steps, 0, nullptr);
     changed = editor.removed(steps);

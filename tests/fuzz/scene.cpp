@@ -5,6 +5,7 @@
 #include "core/config/writer.hpp"
 #include "fuzz.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/model/scene_bodies.hpp"
 
 namespace {
 
@@ -46,9 +47,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   for (const Mesh* mesh : {&block(), &section()})
     fuzz::reads_or_refuses("input.yaml", [&] {
-      const auto loaded = read();
+      auto loaded = read();
+      // Bodies have meshes of their own, and a fuzzed one may be large. The rest of them is
+      // composed on these.
+      expand_bodies(loaded.config, loaded.where.tree);
       Material skin;
-      skin.matrix = {NeoHooke{0.01}}, skin.volume = QuadraticVolume{1e-3};
+      skin.matrix = {NeoHooke{0.01}};
+      skin.volume = QuadraticVolume{1e-3};
       make_scene(loaded.config, *mesh, loaded.config.material ? *loaded.config.material : skin,
                  loaded.where);
     });

@@ -93,6 +93,15 @@ TEST_CASE("a key or an item that is new stands behind its siblings") {
   CHECK(edit_yaml("a: 1", "x", "b", "2") == "a: 1\nb: 2");
 }
 
+// Found by the fuzz target `edit`.
+TEST_CASE("an edit that is made twice changes nothing the second time, or is refused") {
+  CHECK(edit_yaml("b: 2\n", "x", "a", "1   ") == edit_yaml("b: 2\n", "x", "a", "1"));
+  CHECK_THROWS_AS(edit_yaml("a: []\n", "x", "a[1]", "1"), Failure);
+  CHECK_THROWS_AS(edit_yaml("a: 1\n", "x", "a", " \r\r"), Failure);
+  CHECK_THROWS_AS(edit_yaml("a: 1\n", "x", "a", "&anchor 1"), Failure);
+  CHECK_THROWS_AS(edit_yaml("a: 1\n", "x", "a", "|"), Failure);
+}
+
 TEST_CASE("what is removed takes its line or its comma with it") {
   CHECK(edited("contacts.sphere.friction", {}) ==
         with("    friction: 0.3         # Coulomb\n", ""));
