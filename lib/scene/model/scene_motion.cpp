@@ -191,6 +191,14 @@ void add_motion(Scene& scene, const SolveConfig& config, const Mesh& mesh,
       break;
     }
   }
+  constexpr double most_increments = 1e7;
+  if (dynamics.step && motion.seconds / *dynamics.step > most_increments) {
+    errors.push_back({where("dynamics.step"), "dynamics.step",
+                      fmt::format("{:g} s, of which the path of {:g} s has {:.2g}", *dynamics.step,
+                                  motion.seconds, motion.seconds / *dynamics.step),
+                      fmt::format("at most {:.0g} increments", most_increments),
+                      "a wave crosses an element of length h in h sqrt(rho / (K + 4/3 G))"});
+  }
   scene.motion = std::move(motion);
   scene.motion_step = dynamics.step;
   if (dynamics.error) scene.motion_error = 0.01 * percent_of(*dynamics.error).value_or(0.1);
