@@ -1,6 +1,7 @@
 // Mesh files of strangers: each is refused quickly, with its line where it is a text, and nothing
 // of it is executed or written.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>
@@ -22,8 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// One for each process: test cases run at the same time.
 fs::path fresh_folder(const std::string& name) {
-  const fs::path path = fs::path(BINARY_DIR) / "test_files" / "hostile_meshes" / name;
+  const std::string own = name + "_" + std::to_string(getpid());
+  const fs::path path = fs::path(BINARY_DIR) / "test_files" / "hostile_meshes" / own;
   fs::remove_all(path);
   fs::create_directories(path);
   return path;
