@@ -10,6 +10,7 @@
 #include "results/post/patches.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
+#include "support/estimate_of.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
 #include "support/section.hpp"
@@ -21,12 +22,7 @@ namespace {
 struct Estimated {
   std::vector<Valued> found;
   std::vector<ErrorEstimate> errors;
-  const ErrorEstimate& of(const std::string& name) const {
-    for (const ErrorEstimate& e : errors)
-      if (e.of.name == name) return e;
-    FAIL(name);
-    return errors.front();
-  }
+  const ErrorEstimate& of(const std::string& name) const { return test::estimate_of(errors, name); }
 };
 Estimated by_dual_solutions(const std::string& text) {
   const SolveConfig config = test::config_of(text);

@@ -10,6 +10,7 @@
 #include "accuracy/estimate/recovered_path.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/step_forces.hpp"
+#include "support/estimate_of.hpp"
 #include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
@@ -21,12 +22,7 @@ struct Judged {
   std::vector<ErrorEstimate> errors;
   std::vector<StepForces> path;
 
-  const ErrorEstimate& of(const std::string& name) const {
-    for (const ErrorEstimate& e : errors)
-      if (e.of.name == name) return e;
-    FAIL("no estimate of ", name);
-    return errors.front();
-  }
+  const ErrorEstimate& of(const std::string& name) const { return test::estimate_of(errors, name); }
 };
 
 // The scene as it is, with its estimate by refinement; no level is chosen.

@@ -11,6 +11,7 @@
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/run.hpp"
 #include "scene/run/step_forces.hpp"
+#include "support/estimate_of.hpp"
 #include "support/near.hpp"
 #include "support/solved_scene.hpp"
 
@@ -25,12 +26,7 @@ struct Ended {
   bool met = false;
   std::string words;  // where it is not met
 
-  const ErrorEstimate& of(const std::string& name) const {
-    for (const ErrorEstimate& e : errors)
-      if (e.of.name == name) return e;
-    FAIL("no estimate of ", name);
-    return errors.front();
-  }
+  const ErrorEstimate& of(const std::string& name) const { return test::estimate_of(errors, name); }
 };
 
 Ended asked_for(const std::string& scene, const std::string& accuracy) {
