@@ -14,7 +14,6 @@
 #include "identification/inverse/forward_run.hpp"
 #include "identification/inverse/refuse.hpp"
 #include "mechanics/material/ties.hpp"
-#include "scene/model/scene_bodies.hpp"
 #include "scene/model/solve_config_io.hpp"
 
 namespace langer {
@@ -112,9 +111,7 @@ class SceneOf {
       set_value(tree, key, number);
     }
     Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
-    if (!loaded.config.bodies.empty() || has_deformable_contact(loaded.config))
-      refuse_scene(where_, at_ + "solve", choice_.solve.path + " has several bodies or `against`",
-                   "one body, and rigid indenters");
+    refuse_several_bodies(loaded.config, where_, at_ + "solve", choice_.solve.path);
     if (!loaded.config.mesh)
       refuse_scene(where_, at_ + "solve", choice_.solve.path + " has no mesh",
                    "the key mesh there");

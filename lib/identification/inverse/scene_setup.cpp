@@ -7,16 +7,15 @@
 #include <set>
 
 #include "accuracy/refinement/accuracy.hpp"
+#include "identification/inverse/refuse.hpp"
 #include "identification/inverse/scene_fit.hpp"
-#include "scene/model/scene_bodies.hpp"
 #include "scene/model/solve_config_io.hpp"
 
 namespace langer {
 
 namespace {
 
-// The solve config of an item of `data` with its mesh. Forces and derivatives of a fit are those of
-// one body and of rigid indenters.
+// The solve config of an item of `data` with its mesh.
 Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
                                  const SceneTests::Where& where) {
   const std::string at = fmt::format("data[{}].", item);
@@ -29,11 +28,7 @@ Loaded<SolveConfig> scene_config(const FitData& data, std::size_t item,
     set_value(tree, "mesh", load_yaml(data.mesh.path));
   }
   Loaded<SolveConfig> loaded = read_config<SolveConfig>(std::move(tree));
-  if (!loaded.config.bodies.empty() || has_deformable_contact(loaded.config))
-    throw Failure(Exit::config, Error{where(at + "solve"), at + "solve",
-                                      data.solve.path + " has several bodies or `against`",
-                                      "one body, and rigid indenters",
-                                      "the sweep of a pipeline varies numbers of such a scene"});
+  refuse_several_bodies(loaded.config, where, at + "solve", data.solve.path);
   if (!loaded.config.mesh)
     throw Failure(Exit::config,
                   Error{where(at + "solve"), at + "solve", data.solve.path + " has no mesh",
