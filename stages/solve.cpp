@@ -99,7 +99,7 @@ std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
 void run_worker_rank(Run& run, bool dry_run, const SolveConfig& config) {
   if (!run.shared_by()) return;
   if (dry_run) {
-    forecast_of(config, run.body, run.statics, run.scene.stops);
+    forecast_of(config, run.body, run.statics, run.scene);
     return;
   }
   on_root_rank(run.shared_by(), [] { return true; });  // the preparation of rank 0

@@ -25,8 +25,7 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
   if (!by_refinement(config) || !has_numbers(config)) return 0;
   const double estimate = estimate_seconds(config, material, where);
   if (config.estimate == EstimateBy::refinement) return estimate;
-  if (estimate <=
-      worth_it * forecast_of(config, run.body, run.statics, run.scene.stops).seconds()) {
+  if (estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene).seconds()) {
     return estimate;
   }
   return 0;

@@ -11,6 +11,7 @@
 #include "core/base/stopwatch.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "scene/run/body_mesh.hpp"
+#include "scene/run/motion_record.hpp"
 #include "scene/run/step_record.hpp"
 
 namespace langer {
@@ -72,7 +73,7 @@ void check_memory(const Statics& statics, const Statics* beside, int threads) {
 }
 
 Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,
-                     const std::vector<double>& stops) {
+                     const Scene& scene) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   CorrectionsBy by;
   by.reuses = newton && newton->reuse_tangent;
@@ -81,11 +82,8 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& 
   by.in_motion = config.in_motion();
   by.surfaces = seconds_of_surfaces(statics, by.in_motion);
   LoadPathOptions path = config.path;
-  if (by.in_motion && config.dynamics->step) {
-    path.fixed = std::min(1.0, *config.dynamics->step / path.seconds.value_or(1));
-    path.smallest = std::min(path.smallest, path.fixed);
-  }
-  Forecast out = forecast(body, statics.size(), statics.contacts(), path, stops, by);
+  if (scene.motion_step) path = motion_path(scene, path);
+  Forecast out = forecast(body, statics.size(), statics.contacts(), path, scene.stops, by);
   // A frequency takes the stiffness of the viscous branches and a complex factor: measured.
   if (config.harmonic) {
     out.files +=
@@ -97,7 +95,7 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& 
 Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
                      const Run::Where& where) {
   Run run(body_mesh(config, "", where), config, material, where);
-  return forecast_of(config, run.body, run.statics, run.scene.stops);
+  return forecast_of(config, run.body, run.statics, run.scene);
 }
 
 MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck when) {
@@ -130,7 +128,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
   const double free = std::min(free_memory(), free_address());
   // what the program did so far a run does as well
   const double begin = cpu_seconds();
-  Forecast f = forecast_of(config, body, statics, scene.stops);
+  Forecast f = forecast_of(config, body, statics, scene);
   f.files += begin + checks.seconds;
   f.bytes += checks.bytes;
   if (!quiet) {

@@ -23,7 +23,7 @@ void check_memory(const Statics& statics, const Statics* beside, int threads);
 
 // solve/forecast.hpp, by the solver and the path of `config`
 Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,
-                     const std::vector<double>& stops);
+                     const Scene& scene);
 
 // of a scene that is made for it
 Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
