@@ -1,5 +1,6 @@
 #include "accuracy/checks/critical_point.hpp"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>

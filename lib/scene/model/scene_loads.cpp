@@ -1,5 +1,6 @@
 #include "scene/model/scene_loads.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
