@@ -30,7 +30,10 @@ FILES = [
     "mechanics/nonlinear/load_path.cpp",
 ]
 # Programs whose test cases are tried. A test case that takes longer than this is left out [s].
-PROGRAMS = ["tensor", "material", "element", "contact", "solve", "scene", "run", "store"]
+PROGRAMS = [
+    "tensor", "material", "element", "contact", "solve", "scene", "run", "store", "dynamics",
+    "vibration", "mortar", "accuracy",
+]
 LONGEST = 5.0
 
 GUARD = """// Which change of tests/mutants/operators.py acts; which are reached.
@@ -222,7 +225,7 @@ class Source:
                 self.add("declaration", start, s.end)
             elif re.match(r"(const|auto|double|int|bool)\b", body):
                 continue
-            elif re.search(r"[^=!<>]=[^=]|\+\+|--|\w\(", body) and not re.match(r"[\w:<>, ]+[&*]?\s+[&*]?\w+\s*(\(|=|\{)", body):
+            elif re.search(r"[^=!<>]=[^=]|\+\+|--|\w\(", body) and not re.match(r"[\w:<>, ]+[&*]?\s+[&*]?\w+\s*(\(|=|\{|\[)", body):
                 self.add("statement", start, s.end)
 
     def add(self, kind, start, end):
