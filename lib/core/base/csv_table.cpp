@@ -110,36 +110,68 @@ bool is_comment(const std::string& line) {
   return spreadsheet_errors().count(line.substr(first, end - first)) == 0;
 }
 
-// Files that are no text at all, with what their owner has to do.
+// Whether a text has bytes that no table has: zeros, and control characters other than ends of
+// lines and tabulators.
+bool is_binary(const std::string& text) {
+  return std::ranges::any_of(text.substr(0, 4096), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v' &&
+           c != '\x1a';
+  });
+}
+
+// A page of a browser, which some programs save as .xls. Machines write other lines with < at the
+// beginning of their files.
+bool is_web_page(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string::npos) return false;
+  std::string begin = text.substr(first, 10);
+  std::ranges::transform(begin, begin.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return begin.starts_with("<!doctype") || begin.starts_with("<html") ||
+         begin.starts_with("<?xml") || begin.starts_with("<table");
+}
+
+// Files that are no table of text, with what their owner has to do.
 void refuse_workbook(const std::string& text, const std::string& name) {
-  std::string found;
+  const std::string convert =
+      "open it and save the sheet with the curve as \"CSV UTF-8\", or: "
+      "libreoffice --headless --convert-to csv FILE";
+  std::string found, cure = convert;
   if (text.starts_with("PK\x03\x04")) {
     found = "found a workbook (.xlsx, .ods) or another zip archive";
   } else if (text.starts_with("\xD0\xCF\x11\xE0")) {
     found = "found a workbook of old Excel (.xls)";
   } else if (text.starts_with("\x89HDF\r\n")) {
     found = "found an HDF5 file";
+  } else if (text.starts_with("\x1f\x8b")) {
+    found = "found a file compressed by gzip";
+    cure = "unpack it: gunzip FILE";
+  } else if (text.starts_with("%PDF")) {
+    found = "found a PDF document";
+    cure = "ask for the numbers as a table; a PDF holds a picture of them";
+  } else if (is_web_page(text)) {
+    found = "found a web page or XML";
+  } else if (is_binary(text)) {
+    found = "found a binary file";
+    cure = "export the curve as a table from the program that wrote it";
   } else {
     return;
   }
-  throw Failure(Exit::input, {{name, 1, 1},
-                              "",
-                              std::move(found),
-                              "a table as text (CSV)",
-                              "open it and save the sheet with the curve as \"CSV UTF-8\", or: "
-                              "libreoffice --headless --convert-to csv FILE"});
+  throw Failure(Exit::input,
+                {{name, 1, 1}, "", std::move(found), "a table as text (CSV)", std::move(cure)});
 }
 
 // Lines with content. A mark of the byte order and the \r of Windows are removed; lines that
 // contain separators only do not count.
 std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) {
-  refuse_workbook(text, name);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw Failure(Exit::input, {{name, 1, 1},
                                 "",
                                 "found text in UTF-16",
                                 "UTF-8",
                                 "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
+  refuse_workbook(text, name);
   std::vector<CsvLine> lines;
   // files of old Macintosh programs end their lines by \r alone
   char end = '\n';
