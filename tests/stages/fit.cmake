@@ -133,6 +133,11 @@ set(stiff "law: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 1e-6}}}\n
 file(WRITE ${WORK}/stiff.yaml "data: [{file: stiff.csv}]\n${stiff}")
 run(4 "the law describes the data worse than their mean does; expected R2 above 0" ${BIN}/langer-fit stiff.yaml -o stiff/material.h5)
 run(0 "neo_hooke" ${BIN}/langer show stiff/material.h5)
+# one test of several that the law describes so badly is warned of
+file(WRITE ${WORK}/soft.csv "stretch,nominal_stress_MPa\n1,0\n1.1,0.09\n1.2,0.17\n1.3,0.23\n")
+file(WRITE ${WORK}/large.csv "stretch,nominal_stress_MPa\n1,0\n1.1,0.28\n1.2,0.51\n1.3,0.70\n")
+file(WRITE ${WORK}/both.yaml "data: [{file: soft.csv}, {file: large.csv}]\n${stiff}noise: white\n")
+run(0 "the law describes this test worse than its mean does" ${BIN}/langer-fit both.yaml -o both/material.h5)
 
 # compression that counts positive is refused by every program that reads the data, and the key that is named cures it
 file(WRITE ${WORK}/pressed.csv "stretch,nominal_stress_kPa\n1,0\n0.9,6.69136\n0.8,15.25\n0.7,27.818\n")

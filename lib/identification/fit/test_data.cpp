@@ -142,7 +142,8 @@ struct Reading {
                           std::size_t at, const char* name_of_key, const char* what) {
     if (key && column && *key != *column)
       report_column(at, name_of_key, fmt::format("{} for the column \"{}\"", word(*key), name(at)),
-                    fmt::format("the {} that the column's name carries", what));
+                    fmt::format("the {} that the column's name carries", what),
+                    fmt::format("leave {} out: the name says it", name_of_key));
     return key ? key : column;
   }
 
@@ -436,7 +437,7 @@ struct Reading {
         report_column(
             column, "time_unit",
             fmt::format("{} for the column \"{}\"", word(*format.time_unit), name(column)),
-            "the unit that the column's name carries");
+            "the unit that the column's name carries", "leave time_unit out: the name says it");
       }
     } else if (is_time) {
       time_factor = unit->factor;

@@ -265,7 +265,11 @@ std::string in_words(const NoiseRecord& noise) {
   std::string compared;
   for (const auto& [kind, aicc] : noise.aicc) {
     if (!compared.empty()) compared += ", ";
-    compared += fmt::format("{} {:.6g}", kind, aicc);
+    if (std::isfinite(aicc)) {
+      compared += fmt::format("{} {:.6g}", kind, aicc);
+    } else {
+      compared += kind + " not, the values are too few";
+    }
   }
   return words + "; chosen by AICc: " + compared;
 }
@@ -353,6 +357,12 @@ std::vector<std::string> fit_warnings(const FitRecord& record, const Material& m
       lines.push_back(fmt::format(
           "c1 = {:.4g} MPa is negative: the energy is unbounded below, and solutions exist in a limited range only",
           hgo->c1));
+  for (const FittedTest& test : record.tests)
+    if (record.tests.size() > 1 && test.r2 < 0)
+      lines.push_back(fmt::format(
+          "test {}: R2 {:.3g}: the law describes this test worse than its mean does; check its signs "
+          "(sign: -1), measures and units, or fit it alone",
+          test.name, test.r2));
   if (record.residual_correlation > 0) {
     std::string limit;
     if (record.noise.at_limit)
