@@ -54,7 +54,9 @@ InpOpener inp_opener(const std::string& main_file) {
   const fs::path own_folder = fs::path(main_file).parent_path();
   std::error_code ignored;
   fs::path root = fs::weakly_canonical(own_folder.empty() ? fs::path(".") : own_folder, ignored);
-  return [root](const std::string& from, const std::string& named) {
+  return [root](const std::string& from, std::string named) {
+    // Abaqus on Windows writes paths with backslashes.
+    std::ranges::replace(named, '\\', '/');
     InpInclusion inclusion;
     const fs::path path = (fs::path(from).parent_path() / named).lexically_normal();
     inclusion.path = path.string();

@@ -50,6 +50,15 @@ expect_said("out.inp: is read by this run and would be replaced")
 run(3 ${BIN}/langer-mesh mesh.yaml -o mesh.h5 --log out.inp)
 expect_said("out.inp: ")
 
+# paths as programs on Windows write them
+file(MAKE_DIRECTORY ${folder}/sub)
+file(WRITE ${folder}/sub/w.inc "${nodes}")
+file(WRITE ${folder}/main.inp "*HEADING\n*INCLUDE, INPUT=sub\\w.inc\n${element}")
+run(0 ${BIN}/langer-mesh mesh.yaml -o windows.h5)
+file(WRITE ${folder}/main.inp "*HEADING\n*INCLUDE, INPUT=..\\outside.inc\n${element}")
+run(3 ${BIN}/langer-mesh mesh.yaml -o windows.h5)
+expect_said("is not in the folder of the main file")
+
 # files that cannot be included, by name and line
 foreach(bad "../outside.inc;is not in the folder of the main file" "/etc/hostname;is not in the folder of the main file"
     "nothing.inc;there is no such file" "fifo;is no plain file" "main.inp;which includes this file")
