@@ -115,6 +115,10 @@ int crate(const Given& given) {
       "langer: {}/ro-crate-metadata.json: {} files, {} steps, {} inputs copied; to make it again: "
       "sh {}/reproduce",
       folder, report.files, report.actions, report.copied.size(), folder);
+  if (report.actions == 0)
+    say_line(
+        "langer: no step was found: {}/Makefile is missing or has no rules that langer-plan wrote",
+        folder);
   return 0;
 }
 
