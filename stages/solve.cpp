@@ -180,7 +180,8 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
   RunWatch watch(run, config, job.where, input.study);
   if (branch) watch.know(branch->bifurcation);
   if (job.dry_run)
-    return report_forecast(job.voice(), config, input.material, job.where, run, watch);
+    return report_forecast(job.voice(), config, input.material, job.where, run, watch,
+                           model.seconds_of_cuts(run));
 
   Observers observers(run, config);
   observers.prepare(input, config, run, watch);

@@ -26,3 +26,25 @@ path: {steps: 5}
     OUTPUT_VARIABLE ratio OUTPUT_STRIP_TRAILING_WHITESPACE)
   expect_equal("${ratio}" within "${name}: forecast over taken")
 endforeach()
+
+# cells that are cut to an accuracy: the first mesh is solved to know how many are needed
+file(WRITE ${folder}/cut.yaml "mesh:
+  geometry: {block: {origin: [-20, 0, -12], size: [40, 4, 24], divisions: [20, 4, 12]}}
+  sets:
+    pad: {of: top, within: {box: {from: [4, 4, -4], to: [12, 4, 4]}}}
+supports: [{on: bottom, hold: [x, y, z]}, {on: pad, hold: [y, z]}]
+loads: [{on: pad, displacement: {x: -1}}]
+material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-3}}}
+path: {first: 0.25, largest: 0.25}
+estimate: dual
+accuracy: 10%
+")
+run(0 ${BIN}/langer-solve cut.yaml --dry-run)
+expect_said("cells, from the error on the first 960")
+expect_said("of CPU more, on other meshes")
+
+# bonds of an adhesion let go in short increments
+file(READ ${ROOT}/configs/solve/pull_off.yaml pull_off)
+file(WRITE ${folder}/pull_off.yaml "${pull_off}")
+run(0 ${BIN}/langer-solve pull_off.yaml --dry-run)
+expect_said("with short ones while bonds let go")

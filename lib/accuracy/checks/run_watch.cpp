@@ -253,6 +253,13 @@ bool RunWatch::breaking_at(bool at_end) const {
   return breaking_at_each_step_;
 }
 
+int RunWatch::signatures_at_each_step() const {
+  const bool at_the_end = when_ == StabilityCheck::off || when_ == StabilityCheck::last;
+  if (mesh_ || at_the_end || !breaking_at(false)) return 0;
+  const std::size_t breaking = run_.reduction.symmetry_breaking_dofs().size();
+  return breaking > 0 ? 1 + static_cast<int>(breaking) : 0;
+}
+
 std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
   if (mesh_) return report_of_point(record);
   StabilityReport report = stability_.look(run_.body, run_.statics);

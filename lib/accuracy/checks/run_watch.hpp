@@ -37,6 +37,10 @@ class RunWatch {
     return nullptr;
   }
 
+  // Tangents that are factorized after each step for the movements that break the symmetry of a
+  // reduced body, and for those that keep it; 0: none but those of the solution
+  int signatures_at_each_step() const;
+
   const std::string& unstable() const { return unstable_; }  // why the path ended
   const std::string& last_said() const {
     return last_said_;

@@ -333,8 +333,7 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config,
   if (!chosen_) return;
   voice_.detail("accuracy: {}", chosen_->words);
   if (chosen_->cut)
-    voice_.detail("accuracy: cells are cut where the error comes from, until it is within that{}",
-                  dry ? " (not with --dry-run)" : "");
+    voice_.detail("accuracy: cells are cut where the error comes from, until it is within that");
   begins_ = !chosen_->shown && chosen_->level.in_contact_radii &&
             config_.estimate == EstimateBy::refinement;
   if (begins_)

@@ -33,6 +33,10 @@ class ModelChoice {
   // Prints it.
   void leave_homogeneous_point();
 
+  // CPU seconds of the meshes that cut cells will need after this one. The error of the first mesh
+  // decides, so `run` is solved if that is quick; 0 and a message where it is not.
+  double seconds_of_cuts(Run& run) const;
+
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
   // Throws Failure(not_accurate) where the errors exceed what was asked for.
   void require_accuracy(const std::vector<ErrorEstimate>& errors, const std::string& output) const {

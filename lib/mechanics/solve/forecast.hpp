@@ -27,6 +27,7 @@ struct Forecast {
   double again = 0;       // corrections with their tangents
   double contact = 0;     // CPU seconds per iteration and per correction
   double files = 0;       // CPU seconds of start and files, all steps
+  bool bonds = false;     // increments are short while bonds of an adhesion let go
   double per_iteration() const { return assembly + factor + solving; }
   double seconds() const {
     return iterations * (per_iteration() + contact) + again * (0.4 * assembly + solving + contact) +
@@ -60,6 +61,8 @@ struct MeshChecks {
   double seconds = 0;                           // of CPU, all steps
   double bytes = 0;                             // of a factor of the mesh, if there is one
   double assembly = 0, points = 0, factor = 0;  // CPU seconds of one
+  // of a body that symmetry reduces: tangents that are factorized after each step, of all movements
+  int signatures = 0;
 };
 // u: (3 n) a state of the path; n_steps of it, of which n_examined are examined. Assembles `mesh`.
 MeshChecks forecast_of_mesh(Assembler& mesh, const LinearSolver::Size& size, const VecX& u,

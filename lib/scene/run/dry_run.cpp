@@ -129,7 +129,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
   // what the program did so far a run does as well
   const double begin = cpu_seconds();
   Forecast f = forecast_of(config, body, statics, scene);
-  f.files += begin + checks.seconds;
+  f.files += begin + checks.seconds + checks.signatures * f.steps * (f.assembly + f.factor);
   f.bytes += checks.bytes;
   if (!quiet) {
     const auto line = [](const char* part, const std::string& says) {
@@ -180,8 +180,10 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
                        1e-6 * f.size.nonzeros, 1e-6 * f.size.factor_nonzeros, 1e-9 * f.size.flops));
     std::string modified;
     if (f.again > 0) modified = fmt::format("Newton + {:.0f} modified ", f.again);
-    line("path", fmt::format("{} steps if none is cut back, about {:.0f} {}iterations", f.steps,
-                             f.iterations, modified));
+    std::string steps = "if none is cut back";
+    if (f.bonds) steps = "with short ones while bonds let go";
+    line("path", fmt::format("{} steps {}, about {:.0f} {}iterations", f.steps, steps, f.iterations,
+                             modified));
     std::string memory =
         fmt::format("{}; {} are free", memory_in_words(f.bytes), memory_in_words(free));
     if (f.size.factor_bytes > free) memory += ": this will not fit";
