@@ -34,6 +34,28 @@ TEST_CASE("extremes: motions that supports leave free are counted, and the last 
   CHECK(words() == "the supports leave the body 6 rigid motions (3 along, 3 about an axis)");
 }
 
+TEST_CASE("the halves of a body that a half turn ties leave its axis free alone") {
+  Mesh mesh = test::block(test::even(0, 2, 2), test::even(0, 2, 2), test::even(-2, 2, 4));
+  for (Vec3& X : mesh.X) X[1] -= 1;
+  // Nodes of the plane x = 0 move as their images by half a turn about y.
+  std::vector<Image> ties;
+  for (int i = 0; i < mesh.n_nodes(); ++i) ties.push_back({i});
+  for (int i : mesh.node_sets["x_min"])
+    for (int j : mesh.node_sets["x_min"]) {
+      const Vec3 image(0, mesh.X[i][1], -mesh.X[i][2]);
+      if (i <= j && (mesh.X[j] - image).norm() < 1e-9)
+        ties[static_cast<std::size_t>(j)] = {i, Vec3(-1, 1, -1).asDiagonal()};
+    }
+  std::vector<Prescribed> held;
+  const auto words = [&] {
+    return zero_energy_modes(mesh, number_dofs(mesh.n_nodes(), held, ties).dofs);
+  };
+  CHECK(words() == "the supports leave the body 2 rigid motions (1 along, 1 about an axis)");
+  held.push_back({3 * mesh.node_sets["x_max"].front() + 1, 0});
+  CHECK(words() ==
+        "the supports leave the body free to turn about the axis (0, 1, 0) through (0, 0, 0) mm");
+}
+
 TEST_CASE(
     "extremes: a block free to glide and spin on its base is pressed by a smooth sphere as one that is held is") {
   for (double d : {1e-3, 1e-6})
