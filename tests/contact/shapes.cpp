@@ -505,3 +505,15 @@ TEST_CASE("on the axis of a hole the wall is as far as its radius, whichever way
     CHECK(std::abs(p.normal.dot(axis)) <= 1e-14);
   }
 }
+
+TEST_CASE("an ellipsoid has an axis where its two other half axes are equal") {
+  const auto along = [](const std::array<double, 3>& half_axes) {
+    const auto axis = axis_of(Ellipsoid{half_axes, {1, 2, 3}});
+    if (axis) CHECK((axis->point - Vec3(1, 2, 3)).norm() == 0);
+    return axis ? axis->along : Vec3(Vec3::Zero());
+  };
+  CHECK(along({2, 1, 2}) == Vec3::UnitY());
+  CHECK(along({1, 2, 2}) == Vec3::UnitX());
+  CHECK(along({2, 2, 1}) == Vec3::UnitZ());
+  CHECK(along({1, 2, 3}) == Vec3::Zero());
+}

@@ -108,6 +108,9 @@ TEST_CASE(
       CHECK(look.distance <= least + 0.01 * std::abs(least) + 1e-6);
       CHECK(look.distance >= least - 0.05);  // sampling misses little
       CHECK(look.facet.depth == near(std::max(0.0, -look.distance)));
+      // what is deepest relative to its cells is no deeper than the deepest point
+      CHECK((look.unresolved.depth > 0) == (look.facet.depth > 0));
+      CHECK(look.unresolved.depth <= look.facet.depth);
       entered += look.facet.depth > 0;
     }
   }

@@ -257,3 +257,18 @@ TEST_CASE("modes of the dilatation: orthonormal, and linear in X, in cells of an
           1e-13 * 200 * aspect);  // rounding of X, seen across the thin side
   }
 }
+
+TEST_CASE("the mean of I4_bar over the points of a cell is that of its stretched fibres") {
+  const Vec3 a = Vec3(1, 2, 0).normalized();
+  std::vector<GaussState> states(2);
+  states[0].F = Vec3(1.2, 0.9, 1).asDiagonal();
+  states[0].J = states[0].F.determinant();
+  states[1].F = Vec3(0.8, 1.1, 1.3).asDiagonal();
+  states[1].J = states[1].F.determinant();
+  const auto I4_bar = [](double x, double y, double J) {
+    return (0.2 * x * x + 0.8 * y * y) / std::pow(J, 2.0 / 3);
+  };
+  const double first = I4_bar(1.2, 0.9, 1.2 * 0.9);
+  const double second = I4_bar(0.8, 1.1, 0.8 * 1.1 * 1.3);
+  CHECK(mean_I4_bar(states, a) == near(0.5 * (first + second), 1e-14));
+}
