@@ -118,9 +118,9 @@ fuzz:
 
 # mutation tests. One operator, number or statement of the mechanics is changed at a time, by an environment variable in one build of a
 # copy of the tree, build-mutants/tree; the table is build-mutants/operators.md. LIMIT=500: so many of all; FILES='mechanics/contact/*.cpp':
-# of these sources; ONLY='*adhesion.cpp:*': at these places
+# of these sources; ONLY='*adhesion.cpp:*': at these places; AGAIN=1 PROGRAMS=fit,laws LONGEST=20: those without a test by other tests
 mutants: configure
-	@tests/mutants/operators.py --jobs $(JOBS) $(if $(FILES),--files '$(FILES)') $(if $(ONLY),--only '$(ONLY)') $(if $(LIMIT),--limit $(LIMIT))
+	@tests/mutants/operators.py --jobs $(JOBS) $(if $(FILES),--files '$(FILES)') $(if $(ONLY),--only '$(ONLY)') $(if $(LIMIT),--limit $(LIMIT)) $(if $(AGAIN),--again) $(if $(PROGRAMS),--programs '$(PROGRAMS)') $(if $(LONGEST),--longest $(LONGEST))
 # the changes of tests/mutants/list.txt, each with what it means; each is compiled. KEEP=1 continues what an earlier run left; CHECK=1 asks
 # only whether they fit the sources
 mutants-listed: deps

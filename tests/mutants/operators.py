@@ -10,7 +10,8 @@ cases that reach it, the fastest first, until one fails. A change that no test c
 The table is WORK/operators.md.
 
 --files: sources below lib/ (default: FILES below). --only: changes whose place matches this pattern,
-such as '*adhesion.cpp:*'. --limit: at most so many changes, spread evenly.
+such as '*adhesion.cpp:*'. --limit: at most so many changes, spread evenly. --again: only those that
+survived in the last table; with other --programs or a larger --longest, which test notices them.
 """
 import argparse
 import fnmatch
@@ -29,12 +30,12 @@ FILES = [
     "mechanics/assembly/*.cpp", "mechanics/solve/*.cpp", "mechanics/nonlinear/newton.cpp",
     "mechanics/nonlinear/load_path.cpp",
 ]
-# Programs whose test cases are tried. A test case that takes longer than this is left out [s].
+# Programs whose test cases are tried.
 PROGRAMS = [
     "tensor", "material", "element", "contact", "solve", "scene", "run", "store", "dynamics",
     "vibration", "mortar", "accuracy",
 ]
-LONGEST = 5.0
+LONGEST = 5.0  # [s]; a test case that takes longer is left out
 
 GUARD = """// Which change of tests/mutants/operators.py acts; which are reached.
 #pragma once
@@ -409,7 +410,7 @@ def escaped(case):
     return case.replace(",", "?").replace("\\", "?")
 
 
-def reached_by(tree, programs, jobs):
+def reached_by(tree, programs, jobs, longest):
     """(seconds, program, case, numbers of changes) for each test case that passes and is fast"""
     folder = tree.build / "tests"
     reach = tree.root.parent / "reach"
@@ -423,9 +424,9 @@ def reached_by(tree, programs, jobs):
         start = os.times()
         begin = time.time()
         code = run([tree.build / f"bin/test_{program}", f"--test-case={escaped(case)}", "--no-intro"], folder,
-                   {"LANGER_MUTANTS_REACHED": str(file), "OMP_NUM_THREADS": "1"}, 4 * LONGEST)
+                   {"LANGER_MUTANTS_REACHED": str(file), "OMP_NUM_THREADS": "1"}, 4 * longest)
         seconds = time.time() - begin
-        if code != 0 or seconds > LONGEST or not file.exists():
+        if code != 0 or seconds > longest or not file.exists():
             return (program, case, code, seconds), None
         numbers = {n for n, b in enumerate(file.read_bytes()) if b}
         return None, (seconds, program, case, numbers)
@@ -449,6 +450,16 @@ def judged(mutant, cases, tree):
     return "SURVIVES" if reaching else "NOT REACHED"
 
 
+def survivors(table):
+    """(place, change) of the changes that a table has no test for"""
+    found = set()
+    for line in table.read_text().splitlines():
+        match = re.fullmatch(r"\| (\S+) \| `(.*)` \| (SURVIVES|NOT REACHED) \|", line)
+        if match:
+            found.add((match.group(1), match.group(2)))
+    return found
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--files", default=",".join(FILES))
@@ -456,6 +467,8 @@ def main():
     p.add_argument("--limit", type=int)
     p.add_argument("--jobs", type=int, default=os.cpu_count())
     p.add_argument("--programs", default=",".join(PROGRAMS))
+    p.add_argument("--again", action="store_true")
+    p.add_argument("--longest", type=float, default=LONGEST, help="seconds of a test case that is tried")
     p.add_argument("--seconds", type=float, help="stop after this time of trying changes")
     p.add_argument("--count", type=int, metavar="LEAST", help="only count the changes; fails below LEAST")
     p.add_argument("--work", type=Path, default=ROOT / "build-mutants")
@@ -476,9 +489,12 @@ def main():
     programs = args.programs.split(",")
     mutants = build(tree, sources, programs, args.jobs)
     print(f"{len(mutants)} changes in {len(sources)} files", flush=True)
-    cases = reached_by(tree, programs, args.jobs)
+    cases = reached_by(tree, programs, args.jobs, args.longest)
     print(f"{len(cases)} test cases", flush=True)
     chosen = [m for m in mutants if fnmatch.fnmatch(m.place, args.only)]
+    if args.again:
+        before = survivors(tree.root.parent / "operators.md")
+        chosen = [m for m in chosen if (m.place, m.what) in before]
     if args.limit and len(chosen) > args.limit:
         chosen = [chosen[i * len(chosen) // args.limit] for i in range(args.limit)]
     rows, begin = [], time.time()
@@ -494,13 +510,14 @@ def main():
     with ThreadPoolExecutor(args.jobs) as pool:
         list(pool.map(one, chosen))
     rows.sort(key=lambda row: row[0].number)
-    with (tree.root.parent / "operators.md").open("w") as out:
+    table = tree.root.parent / ("again.md" if args.again else "operators.md")
+    with table.open("w") as out:
         out.write("| place | change | noticed by |\n| --- | --- | --- |\n")
         for mutant, verdict in rows:
             out.write(f"| {mutant.place} | `{mutant.what}` | {verdict.replace('|', '/')} |\n")
     count = lambda word: sum(verdict == word for _, verdict in rows)
     print(f"{len(rows)} of {len(chosen)} changes tried: {len(rows) - count('SURVIVES') - count('NOT REACHED')} noticed, "
-          f"{count('SURVIVES')} survive, {count('NOT REACHED')} not reached by a fast test case; table: {tree.root.parent / 'operators.md'}")
+          f"{count('SURVIVES')} survive, {count('NOT REACHED')} not reached by a fast test case; table: {table}")
 
 
 if __name__ == "__main__":

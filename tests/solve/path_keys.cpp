@@ -241,3 +241,22 @@ TEST_CASE("Newton's method asks before every iteration whether it is to end") {
     CHECK(corrections == allowed);
   }
 }
+
+TEST_CASE("with seconds the smallest increment is a share of the shortest stage") {
+  LoadPathOptions options;
+  options.seconds = 10;
+  options.smallest = 0.02;
+  double shortest = 1;
+  const auto never = [&](double t) {
+    shortest = std::min(shortest, t);
+    return outcome(false);
+  };
+  const auto accepted = [](double, double, double, const SolveReport&) {
+    return true;
+  };
+  // stages of 0.5, 0.1 and 0.4 of the path
+  const PathReport report = load_path(options, 0, {}, {0.5, 0.6}, never, accepted);
+  CHECK_FALSE(report.complete);
+  CHECK(shortest >= 0.1 * options.smallest);
+  CHECK(shortest < 2 * 0.1 * options.smallest);
+}
