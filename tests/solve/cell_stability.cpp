@@ -101,3 +101,23 @@ TEST_CASE("cells never show a body to be stable whose factor has negative pivots
   CHECK(shown >= 10);
   CHECK(unstable >= 3);
 }
+
+TEST_CASE("a cell does not stand for another one with other fibres") {
+  const Mesh mesh = test::block({0, 1, 2}, {0, 1}, {0, 1});
+  // Fibres that lose stiffness where they are stretched; those across are shortened and do nothing.
+  Material material = test::neo_hooke(a1, d);
+  material.fibres.push_back({HgoFibre{-5, 1}, 0});
+  const auto resists = [&](const Vec3& of_second) {
+    Directions directions(true);
+    directions.append({Vec3::UnitY()});
+    directions.append({of_second});
+    const Assembler body(mesh, {material}, directions, Formulation::mean_dilatation,
+                         number_dofs(mesh.n_nodes(), {}).dofs);
+    VecX u(3 * mesh.n_nodes());
+    for (int node = 0; node < mesh.n_nodes(); ++node)
+      u.segment<3>(3 * node) = stretched(1.2) * mesh.X[static_cast<std::size_t>(node)];
+    return every_cell_resists(body, u);
+  };
+  CHECK(resists(Vec3::UnitY()));
+  CHECK_FALSE(resists(Vec3::UnitX()));
+}
