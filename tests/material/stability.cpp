@@ -97,6 +97,8 @@ TEST_CASE(
   StabilityOptions options;
   options.points = 21, options.angles = {0, 45}, options.stretches = 9, options.threads = 3;
   const StabilityMap map = stability_map(table1_hgo_yeoh(30), options);  // turned to 0 and 45
+  CHECK(map.stretch.front() == options.stretch_from);
+  CHECK(map.stretch.back() == near(options.stretch_to));
   REQUIRE(map.paths.size() == 8);
   CHECK(map.paths[0].ellipticity_loss == near(0.638, 2e-3));
   CHECK(std::isinf(map.paths[1].ellipticity_loss));  // 1.42 lies beyond

@@ -9,8 +9,8 @@ once. Then each test case runs alone and records which changes it reaches, and e
 cases that reach it, the fastest first, until one fails. A change that no test case notices survives.
 The table is WORK/operators.md.
 
---files: sources below lib/ (default: FILES below). --only: changes whose place matches this pattern,
-such as '*adhesion.cpp:*'. --limit: at most so many changes, spread evenly. --again: only those that
+--files: sources below lib/ (default: FILES below). --only: changes whose place matches one of these
+patterns, such as '*adhesion.cpp:*,*bonds.cpp:*'. --limit: at most so many changes, spread evenly. --again: only those that
 survived in the last table; with other --programs or a larger --longest, which test notices them.
 """
 import argparse
@@ -491,7 +491,7 @@ def main():
     print(f"{len(mutants)} changes in {len(sources)} files", flush=True)
     cases = reached_by(tree, programs, args.jobs, args.longest)
     print(f"{len(cases)} test cases", flush=True)
-    chosen = [m for m in mutants if fnmatch.fnmatch(m.place, args.only)]
+    chosen = [m for m in mutants if any(fnmatch.fnmatch(m.place, p) for p in args.only.split(","))]
     if args.again:
         before = survivors(tree.root.parent / "operators.md")
         chosen = [m for m in chosen if (m.place, m.what) in before]

@@ -78,7 +78,7 @@ estimate: dual
 run(0 ${BIN}/langer-solve graded.yaml -o graded.h5 -v --set accuracy=60%)
 expect_said("of the mesh as it is")
 run(0 ${BIN}/langer-solve graded.yaml --dry-run --set accuracy=1%)
-expect_said("(not with --dry-run)")
+expect_said("cells, from the error on the first")
 file(WRITE ${folder}/long_cells.yaml "geometry: {block: {origin: [-20, 0, -20], size: [40, 20, 40], divisions: [10, 5, 10]}}\n")
 file(WRITE ${folder}/small.yaml "material: {matrix: {yeoh: {a1: 0.269, a2: 0.376, a3: 0.415}}, volume: {quadratic: {d: 1.0e-3}}}
 supports: [{on: bottom, hold: [x, y, z]}]

@@ -1,7 +1,7 @@
 #include "accuracy/checks/critical_point.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -156,8 +156,9 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
 double ModelChoice::seconds_of_cuts(Run& run) const {
   constexpr double quick = 20, order = 2.0 / 3, growth = 2.3, cost = 1.5;
   const SolveConfig& asked = config();
-  if (!cells_ || asked.estimate != EstimateBy::dual) return 0;
-  if (forecast_of(asked, run.body, run.statics, run.scene).seconds() > quick) {
+  if (!cells_) return 0;
+  const bool has_error = asked.estimate == EstimateBy::dual;
+  if (!has_error || forecast_of(asked, run.body, run.statics, run.scene).seconds() > quick) {
     voice_.say("accuracy: the time is that of the first mesh: finer ones are not forecast");
     return 0;
   }
@@ -167,9 +168,16 @@ double ModelChoice::seconds_of_cuts(Run& run) const {
   listener.of_whole = [&](StepRecord& step, const SolveReport&) {
     append_step(path, step_forces(asked, run.scene, run.mesh, step));
   };
-  const RunEnd end = run.follow(listener);
-  if (end.at != RunEnd::At::the_end) return 0;
-  const PathErrors errors = estimated(asked, material_, where_, run, end.last, path, {});
+  PathErrors errors;
+  try {
+    const RunEnd end = run.follow(listener);
+    if (end.at != RunEnd::At::the_end) return 0;
+    errors = estimated(asked, material_, where_, run, end.last, path, {});
+  } catch (const Failure& failure) {
+    if (failure.code() != Exit::not_converged) throw;
+    voice_.say("accuracy: finer meshes are not forecast: {}", failure.what());
+    return 0;
+  }
   const double first = cpu_seconds() - start;
 
   const std::optional<double> wanted = accuracy_.wanted_share(errors.at_end);

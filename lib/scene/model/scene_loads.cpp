@@ -1,7 +1,7 @@
 #include "scene/model/scene_loads.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <set>
