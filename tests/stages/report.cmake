@@ -31,6 +31,16 @@ if(little GREATER 1200000)
   message(FATAL_ERROR "asked for 1.2 MB, got ${little} bytes")
 endif()
 
+# bodies that meet: areas of contact are no numbers of nodes
+run(0 ${BIN}/langer-solve configs/solve/impact_two.yaml --set path.seconds=5e-4 -o two.h5 --quiet)
+run(0 ${BIN}/langer-report runs/smoke/report/report.yaml --solution two.h5 -o two.html)
+file(READ ${WORK}/project/two.html text)
+string(FIND "${text}" "area of contact" area)
+if(area EQUAL -1)
+  message(FATAL_ERROR "the page of two bodies has no area of contact")
+endif()
+file(READ ${page} text)
+
 find_program(CHROMIUM NAMES chromium chromium-browser google-chrome)
 if(NOT CHROMIUM)
   message("skipped: no chromium to open the page in")

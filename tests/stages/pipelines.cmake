@@ -1,0 +1,12 @@
+# Pipelines that no other test runs go from their first step to their report. Each takes some seconds.
+include(${ROOT}/tests/support/run.cmake)
+copy_project()
+set(names snap balloon buckling pinch ballistometer impact_two liner sliding_layers fold fingertip laws posterior)
+if(SANITIZED)
+  set(names snap impact_two)
+endif()
+foreach(name ${names})
+  run(0 ${BIN}/langer-plan pipelines/${name}.yaml --quiet)
+  run(0 make -j2 -C runs/${name})
+  expect_said("results: ")
+endforeach()
