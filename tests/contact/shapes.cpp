@@ -121,7 +121,9 @@ TEST_CASE("every indenter answers what its discretisation and its drawing need")
   CHECK(shape_at(plate, hole.axis.point + hole.edge * hole.axis.along).gap ==
         near(hole.radius, 1e-14));
 
-  for (const auto& [name, shape] : shapes()) {
+  for (const auto& named : shapes()) {
+    const auto& name = named.first;
+    const auto& shape = named.second;
     CAPTURE(name);
     CHECK(is_flat(shape) == (std::string(name) == "plane"));
     CHECK(ball_of(shape).has_value() == (std::string(name) == "sphere"));
