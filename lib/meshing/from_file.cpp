@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/lower_case.hpp"
 #include "meshing/block.hpp"
 #include "meshing/exchange.hpp"
 
@@ -15,9 +16,7 @@ namespace {
 std::string kind_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string::npos) return "";
-  std::string kind = path.substr(dot + 1);
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return kind;
+  return lower_case(path.substr(dot + 1));
 }
 
 // Names of sets and bodies become parts of keys and of HDF5 paths: letters that would split those

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/input_file.hpp"
+#include "core/base/lower_case.hpp"
 
 namespace langer {
 
@@ -55,7 +56,7 @@ std::vector<Vec3> corners_of_text(const std::string& text, auto refuse) {
     std::istringstream words(line);
     std::string word;
     words >> word;
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    word = lower_case(word);
     if (word == "endloop" && corners.size() % 3 != 0) refuse(n, "a facet that is no triangle");
     if (word != "vertex") continue;
     Vec3 x;

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/lower_case.hpp"
 #include "core/base/measured_units.hpp"
 
 namespace langer {
@@ -112,11 +115,10 @@ bool is_comment(const std::string& line) {
 
 // Whether a text has bytes that no table has: zeros, and control characters other than ends of
 // lines and tabulators.
-bool is_binary(const std::string& text) {
-  return std::ranges::any_of(text.substr(0, 4096), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v' &&
-           c != '\x1a';
+bool is_binary(std::string_view text) {
+  return std::ranges::any_of(text.substr(0, 4096), [](unsigned char c) {
+    constexpr std::string_view of_text = "\n\r\t\f\v\x1a";
+    return c < 0x20 && of_text.find(static_cast<char>(c)) == std::string_view::npos;
   });
 }
 
@@ -125,41 +127,31 @@ bool is_binary(const std::string& text) {
 bool is_web_page(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) return false;
-  std::string begin = text.substr(first, 10);
-  std::ranges::transform(begin, begin.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return begin.starts_with("<!doctype") || begin.starts_with("<html") ||
-         begin.starts_with("<?xml") || begin.starts_with("<table");
+  const std::string begin = lower_case(text.substr(first, 10));
+  return std::ranges::any_of(std::array{"<!doctype", "<html", "<?xml", "<table"},
+                             [&](const char* tag) { return begin.starts_with(tag); });
 }
 
-// Files that are no table of text, with what their owner has to do.
-void refuse_workbook(const std::string& text, const std::string& name) {
-  const std::string convert =
+// Refuses files that are no table of text, with what their owner has to do.
+void refuse_other_formats(const std::string& text, const std::string& name) {
+  constexpr const char* convert =
       "open it and save the sheet with the curve as \"CSV UTF-8\", or: "
       "libreoffice --headless --convert-to csv FILE";
-  std::string found, cure = convert;
-  if (text.starts_with("PK\x03\x04")) {
-    found = "found a workbook (.xlsx, .ods) or another zip archive";
-  } else if (text.starts_with("\xD0\xCF\x11\xE0")) {
-    found = "found a workbook of old Excel (.xls)";
-  } else if (text.starts_with("\x89HDF\r\n")) {
-    found = "found an HDF5 file";
-  } else if (text.starts_with("\x1f\x8b")) {
-    found = "found a file compressed by gzip";
-    cure = "unpack it: gunzip FILE";
-  } else if (text.starts_with("%PDF")) {
-    found = "found a PDF document";
-    cure = "ask for the numbers as a table; a PDF holds a picture of them";
-  } else if (is_web_page(text)) {
-    found = "found a web page or XML";
-  } else if (is_binary(text)) {
-    found = "found a binary file";
-    cure = "export the curve as a table from the program that wrote it";
-  } else {
-    return;
+  const auto refuse = [&](const char* found, const char* hint) {
+    throw Failure(Exit::input, {{name, 1, 1}, "", found, "a table as text (CSV)", hint});
+  };
+  if (text.starts_with("PK\x03\x04"))
+    refuse("found a workbook (.xlsx, .ods) or another zip archive", convert);
+  if (text.starts_with("\xD0\xCF\x11\xE0")) refuse("found a workbook of old Excel (.xls)", convert);
+  if (text.starts_with("\x89HDF\r\n")) refuse("found an HDF5 file", convert);
+  if (text.starts_with("\x1f\x8b")) {
+    refuse("found a file compressed by gzip", "unpack it: gunzip FILE");
   }
-  throw Failure(Exit::input,
-                {{name, 1, 1}, "", std::move(found), "a table as text (CSV)", std::move(cure)});
+  if (text.starts_with("%PDF"))
+    refuse("found a PDF document", "ask for the numbers as a table; a PDF holds a picture of them");
+  if (is_web_page(text)) refuse("found a web page or XML", convert);
+  if (is_binary(text))
+    refuse("found a binary file", "export the curve as a table from the program that wrote it");
 }
 
 // Lines with content. A mark of the byte order and the \r of Windows are removed; lines that
@@ -171,7 +163,7 @@ std::vector<CsvLine> lines_of(const std::string& text, const std::string& name) 
                                 "found text in UTF-16",
                                 "UTF-8",
                                 "save it as \"CSV UTF-8\", or: iconv -f UTF-16 -t UTF-8"});
-  refuse_workbook(text, name);
+  refuse_other_formats(text, name);
   std::vector<CsvLine> lines;
   // files of old Macintosh programs end their lines by \r alone
   char end = '\n';
@@ -210,10 +202,7 @@ bool all_numbers(const CsvRow& row) {
 // Spreadsheets write "sep=;" into the first line.
 std::optional<char> declared_separator(const std::vector<CsvLine>& lines) {
   if (lines.empty() || lines[0].text.size() != 5) return std::nullopt;
-  std::string word = lines[0].text.substr(0, 4);
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (word == "sep=") return std::optional(lines[0].text[4]);
+  if (lower_case(lines[0].text.substr(0, 4)) == "sep=") return std::optional(lines[0].text[4]);
   return std::nullopt;
 }
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "core/base/lower_case.hpp"
+
 namespace langer {
 
 namespace {
@@ -30,13 +32,6 @@ std::string without_brackets(const std::string& text) {
     return without_separators(inner.substr(1, inner.size() - 2));
   }
   return inner;
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c);
-  });
-  return text;
 }
 
 struct Spellings {

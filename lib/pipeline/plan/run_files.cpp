@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/base/input_file.hpp"
+#include "core/base/lower_case.hpp"
 #include "core/base/quoted.hpp"
 #include "core/hdf5/replace.hpp"
 #include "meshing/inp.hpp"
@@ -95,8 +96,7 @@ std::set<std::string> files_of(const Tree& tree) {
 
 // The extension is compared in lower case, because other programs write .INP.
 std::vector<std::string> files_included_by(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case(fs::path(path).extension().string());
   std::error_code ec;
   if (extension != ".inp" || !fs::is_regular_file(path, ec)) return {};
   return included_inp_files(path);
