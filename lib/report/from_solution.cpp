@@ -17,6 +17,7 @@
 #include "report/labels.hpp"
 #include "report/sources.hpp"
 #include "results/store/solution_file.hpp"
+#include "results/store/solution_layout.hpp"
 
 namespace langer::report {
 
@@ -254,12 +255,6 @@ bool is_charted(const std::string& name, const std::vector<double>& values) {
   return std::ranges::any_of(values, is_nonzero);
 }
 
-// Histories of whole numbers. The area of two surfaces, contact_area_<name>, is none of them.
-bool is_count(const std::string& name) {
-  return name == "iterations" || name == "contact_open" || name == "contact_stick" ||
-         name == "contact_slip";
-}
-
 }  // namespace
 
 // For each solution: the answer, verdicts, and a view of the deformed body. Columns of the history
@@ -277,7 +272,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
     const std::size_t n = static_cast<std::size_t>(solution.n_steps());
     for (const std::string& name : group.datasets()) {
       if (group.shape(name).size() != 1) continue;
-      if (is_count(name)) {
+      if (solution::is_count(name)) {
         const auto whole = group.read_rows<std::int64_t>(name, 0, n, {}).values;
         history[name].assign(whole.begin(), whole.end());
       } else {

@@ -16,6 +16,12 @@ inline constexpr std::array histories{"t",           "increment", "iterations", 
                                       "u_ind",       "force_ind", "contact_open", "contact_stick",
                                       "contact_slip"};
 inline constexpr std::array status_words{"open", "stick", "slip"};
+// Whether a history has whole numbers: iterations, and candidates by their status.
+inline bool is_count(const std::string& history) {
+  return history == "iterations" || std::ranges::any_of(status_words, [&](const char* status) {
+           return history == std::string("contact_") + status;
+         });
+}
 
 template <std::size_t n>
 bool among(const std::array<const char*, n>& names, const std::string& name) {
