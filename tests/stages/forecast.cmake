@@ -43,6 +43,15 @@ run(0 ${BIN}/langer-solve cut.yaml --dry-run)
 expect_said("cells, from the error on the first 960")
 expect_said("of CPU more, on other meshes")
 
+# One hexahedron that stands for a body has no error of cells: nothing is solved, and the states on the mesh are forecast.
+file(READ ${folder}/pulled.yaml pulled)
+file(WRITE ${folder}/alike.yaml "${pulled}estimate: dual\naccuracy: 1%\n")
+run(0 ${BIN}/langer-solve alike.yaml --dry-run)
+expect_said("the states on the mesh take")
+if(said MATCHES "are not forecast")
+  message(FATAL_ERROR "a homogeneous body was solved for its forecast:\n${said}")
+endif()
+
 # bonds of an adhesion let go in short increments
 file(READ ${ROOT}/configs/solve/pull_off.yaml pull_off)
 file(WRITE ${folder}/pull_off.yaml "${pull_off}")

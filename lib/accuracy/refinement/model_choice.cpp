@@ -150,43 +150,46 @@ bool ModelChoice::cut(const PathErrors& errors, const Mesh& mesh) {
   return true;
 }
 
+std::optional<double> ModelChoice::wanted_share_on(Run& run) const {
+  std::vector<StepForces> path;
+  RunListener listener;
+  listener.of_whole = [&](StepRecord& step, const SolveReport&) {
+    append_step(path, step_forces(config(), run.scene, run.mesh, step));
+  };
+  try {
+    const RunEnd end = run.follow(listener);
+    if (end.at != RunEnd::At::the_end) return std::nullopt;
+    const PathErrors errors = estimated(config(), material_, where_, run, end.last, path, {});
+    return accuracy_.wanted_share(errors.at_end);
+  } catch (const Failure& failure) {
+    if (failure.code() != Exit::not_converged) throw;
+    voice_.say("accuracy: finer meshes are not forecast: {}", failure.what());
+    return std::nullopt;
+  }
+}
+
 // The error of cut cells falls about as n^(-2/3) of their number n, each mesh has some 2.3 times
 // the cells of the one before, and the time of a mesh grows as n^1.5 (pads: 34, 19, 11 and 6.7 %
 // with 960, 1926, 5370 and 10795 cells).
 double ModelChoice::seconds_of_cuts(Run& run) const {
   constexpr double quick = 20, order = 2.0 / 3, growth = 2.3, cost = 1.5;
-  const SolveConfig& asked = config();
-  if (!cells_) return 0;
-  const bool has_error = asked.estimate == EstimateBy::dual;
-  if (!has_error || forecast_of(asked, run.body, run.statics, run.scene).seconds() > quick) {
+  // One hexahedron that stands for the body has no error of cells.
+  if (!cells_ || run.reduction.mesh_of_point()) return 0;
+  const bool has_error = config().estimate == EstimateBy::dual;
+  if (!has_error || forecast_of(config(), run.body, run.statics, run.scene).seconds() > quick) {
     voice_.say("accuracy: the time is that of the first mesh: finer ones are not forecast");
     return 0;
   }
   const double start = cpu_seconds();
-  std::vector<StepForces> path;
-  RunListener listener;
-  listener.of_whole = [&](StepRecord& step, const SolveReport&) {
-    append_step(path, step_forces(asked, run.scene, run.mesh, step));
-  };
-  PathErrors errors;
-  try {
-    const RunEnd end = run.follow(listener);
-    if (end.at != RunEnd::At::the_end) return 0;
-    errors = estimated(asked, material_, where_, run, end.last, path, {});
-  } catch (const Failure& failure) {
-    if (failure.code() != Exit::not_converged) throw;
-    voice_.say("accuracy: finer meshes are not forecast: {}", failure.what());
-    return 0;
-  }
+  const std::optional<double> wanted = wanted_share_on(run);
   const double first = cpu_seconds() - start;
+  double seconds = -first;
+  if (!wanted || *wanted <= 0) return seconds;
 
-  const std::optional<double> wanted = accuracy_.wanted_share(errors.at_end);
-  if (!wanted || *wanted <= 0) return 0;
   const double cells = run.mesh.n_cells();
   const double needed = std::min(cells * std::pow(refinement::target * *wanted, -1 / order),
                                  static_cast<double>(refinement::most_cut));
   voice_.detail("accuracy: about {:.0f} cells, from the error on the first {:.0f}", needed, cells);
-  double seconds = 0;
   for (double n = needed; n > 1.2 * cells; n /= growth)
     seconds += first * std::pow(n / cells, cost);
   return seconds;

@@ -33,8 +33,9 @@ class ModelChoice {
   // Prints it.
   void leave_homogeneous_point();
 
-  // CPU seconds of the meshes that cut cells will need after this one. The error of the first mesh
-  // decides, so `run` is solved if that is quick; 0 and a message where it is not.
+  // CPU seconds that the meshes of cut cells will take after this one. The error of the first mesh
+  // decides, so `run` is solved if that is quick; 0 and a message where it is not. Less what that
+  // takes here: a forecast counts both the seconds so far and those of the first mesh.
   double seconds_of_cuts(Run& run) const;
 
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
@@ -48,6 +49,8 @@ class ModelChoice {
   }
 
  private:
+  // Solves `run`: the share of its error that is wanted; nothing where it is met or not known.
+  std::optional<double> wanted_share_on(Run& run) const;
   Accuracy of_model() const;
   bool cut(const PathErrors& errors, const Mesh& mesh);
 
