@@ -116,9 +116,8 @@ int crate(const Given& given) {
       "sh {}/reproduce",
       folder, report.files, report.actions, report.copied.size(), folder);
   if (report.actions == 0)
-    say_line(
-        "langer: no step was found: {}/Makefile is missing or has no rules that langer-plan wrote",
-        folder);
+    say_line("langer: no step was found: {}/Makefile has no rules as langer-plan writes them",
+             folder);
   return 0;
 }
 

@@ -87,7 +87,8 @@ TEST_CASE("what does not fit is refused with its place") {
   f.stress_unit = StressUnit::MPa;
   holds(
       refusal(two_protocols, f),
-      "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries");
+      "stress_unit: MPa for the column \"px_kPa\"; expected the unit that the column's name carries\n"
+      "  hint: leave stress_unit out: the name says it");
   f = biaxial();
   f.split = "specimen";
   holds(refusal(two_protocols, f), "split: no column \"specimen\"");

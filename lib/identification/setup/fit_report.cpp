@@ -268,7 +268,7 @@ std::string in_words(const NoiseRecord& noise) {
     if (std::isfinite(aicc)) {
       compared += fmt::format("{} {:.6g}", kind, aicc);
     } else {
-      compared += kind + " not, the values are too few";
+      compared += kind + " none (too few values)";
     }
   }
   return words + "; chosen by AICc: " + compared;
