@@ -10,8 +10,9 @@ cases that reach it, the fastest first, until one fails. A change that no test c
 The table is WORK/operators.md.
 
 --files: sources below lib/ (default: FILES below). --only: changes whose place matches one of these
-patterns, such as '*adhesion.cpp:*,*bonds.cpp:*'. --limit: at most so many changes, spread evenly. --again: only those that
-survived in the last table; with other --programs or a larger --longest, which test notices them.
+patterns, such as '*adhesion.cpp:*,*bonds.cpp:*'. --limit: at most so many changes, spread evenly.
+--again: only those that survived in the last table, to be tried by other --programs or by test
+cases that take --longest seconds. The table is WORK/again.md.
 """
 import argparse
 import fnmatch
