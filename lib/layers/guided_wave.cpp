@@ -1,10 +1,11 @@
 #include "layers/guided_wave.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/tensor/principal.hpp"
 
 namespace langer {
 
@@ -119,10 +120,10 @@ struct Found {
 
 // The eigenvalue of the surface stiffness that is closest to 0, with its vector.
 std::pair<double, Vec3> smallest(const Mat3& surface) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(surface);
+  const Principal eigen = principal(surface);
   Eigen::Index at = 0;
-  eigen.eigenvalues().cwiseAbs().minCoeff(&at);
-  return {eigen.eigenvalues()[at], eigen.eigenvectors().col(at)};
+  eigen.values.cwiseAbs().minCoeff(&at);
+  return {eigen.values[at], eigen.directions.col(at)};
 }
 
 // Either k or w is given; x is what is searched, such that the number of modes grows with x.

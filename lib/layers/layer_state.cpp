@@ -1,11 +1,11 @@
 #include "layers/layer_state.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
 #include "core/tensor/kinematics.hpp"
+#include "core/tensor/principal.hpp"
 #include "core/tensor/push_forward.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/material/existence.hpp"
@@ -115,15 +115,14 @@ std::vector<double> body_waves(const LayerState& state, const Vec3& n) {
     }
   if (state.bulk > 0) {
     Q += state.bulk * n * n.transpose();
-    const Vec3 all = Eigen::SelfAdjointEigenSolver<Mat3>(Q, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vec3 all = principal_values(Q);
     return {all[0], all[1], all[2]};
   }
   const Vec3 s = n.unitOrthogonal();
   const Vec3 t = n.cross(s);
-  Eigen::Matrix2d P;
+  Mat2 P;
   P << s.dot(Q * s), s.dot(Q * t), t.dot(Q * s), t.dot(Q * t);
-  const Eigen::Vector2d both =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vec2 both = principal_values(P);
   return {both[0], both[1]};
 }
 

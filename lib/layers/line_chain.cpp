@@ -1,9 +1,11 @@
 #include "layers/line_chain.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/tensor/principal.hpp"
 
 namespace langer {
 
@@ -42,9 +44,12 @@ DirectedModuli<Number> in_direction(const Eigen::Matrix<Number, 9, 9>& A, double
         deep(3 * i + p, a) = e(i, a) * e(p, 1);
       }
   DirectedModuli<Number> m;
-  m.Q = along.transpose() * A * along;
-  m.T = deep.transpose() * A * deep;
-  const Eigen::Matrix<Number, 3, 3> R = along.transpose() * A * deep;
+  // products by coefficients: those by blocks take the compiler seconds
+  const Eigen::Matrix<Number, 9, 3> A_along = A.lazyProduct(along);
+  const Eigen::Matrix<Number, 9, 3> A_deep = A.lazyProduct(deep);
+  m.Q = along.transpose().lazyProduct(A_along);
+  m.T = deep.transpose().lazyProduct(A_deep);
+  const Eigen::Matrix<Number, 3, 3> R = along.transpose().lazyProduct(A_deep);
   // u = (a, i b, c) turns i k R into a real matrix
   m.S.setZero();
   for (const int i : {0, 2}) {
@@ -71,7 +76,7 @@ Number pivot_or_tiny(const Number& pivot) {
 }
 
 int negative_eigenvalues(const Mat3& A) {
-  const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vec3 values = principal_values(A);
   return static_cast<int>((values.array() < 0).count());
 }
 int negative_eigenvalues(const Eigen::Matrix3cd&) { return 0; }

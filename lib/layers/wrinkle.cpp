@@ -1,6 +1,5 @@
 #include "layers/wrinkle.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,11 +7,12 @@
 #include <numbers>
 #include <optional>
 
+#include "core/tensor/principal.hpp"
+
 namespace langer {
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 constexpr double pi = std::numbers::pi;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
@@ -33,8 +33,7 @@ double stability(const LayerStack& stack, double wave_angle, double k, int refin
   LineChain<double> chain(moduli, line_mesh(thickness, k, decays, cuttable, choice), stack.bottom,
                           stack.surface_tension);
   chain.eliminate(k, 0);
-  const double smallest =
-      Eigen::SelfAdjointEigenSolver<Mat3>(chain.surface(), Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double smallest = principal_values(chain.surface())[0];
   if (chain.modes_below() > 0) return -std::abs(smallest) - std::numeric_limits<double>::min();
   return std::abs(smallest);
 }

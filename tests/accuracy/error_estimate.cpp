@@ -16,6 +16,8 @@
 
 using namespace langer;
 
+namespace error_estimate_tests {
+
 namespace {
 
 const auto nowhere = [](const std::string&) {
@@ -320,3 +322,5 @@ TEST_CASE("the greatest von Mises stress at a corner of one cell alone has an er
       recovered_error(Body(mesh, scene.materials, scene.directions, scene.formulation), last.u);
   CHECK(error.von_mises_spread > 0.05 * error.von_mises_max);
 }
+
+}  // namespace error_estimate_tests

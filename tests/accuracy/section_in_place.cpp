@@ -12,6 +12,8 @@
 
 using namespace langer;
 
+namespace section_in_place_tests {
+
 namespace {
 
 using Random = std::mt19937;
@@ -266,3 +268,5 @@ TEST_CASE("an accuracy is asked of forces on indenters, of several their own, el
         "reaction_top reaction_side ");
   CHECK(names({"von_mises_max"}) == "");
 }
+
+}  // namespace section_in_place_tests

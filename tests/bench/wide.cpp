@@ -11,12 +11,12 @@ using namespace langer;
 
 namespace {
 
-struct Row {
+struct Pressing {
   double candidates = 0, factor = 0, contact = 0, corrections = 0, factorizations = 0, force = 0;
   bool complete = false;
 };
 
-Row pressed(int n, int layers, double mu, ContactBy by) {
+Pressing pressed(int n, int layers, double mu, ContactBy by) {
   test::Indentation scene;
   scene.nx = scene.nz = n, scene.ny = layers, scene.h = 0, scene.depth = 0.1, scene.step = 0.05,
   scene.mu = mu;
@@ -36,7 +36,7 @@ Row pressed(int n, int layers, double mu, ContactBy by) {
 void print_both(int n, int layers, double mu) {
   for (ContactBy by : {ContactBy::compliance, ContactBy::tangent}) {
     if (by == ContactBy::compliance && n > 32) continue;  // minutes
-    const Row row = pressed(n, layers, mu, by);
+    const Pressing row = pressed(n, layers, mu, by);
     fmt::print(
         "  {:>10}  {:>6}  {:>8}  {:<10}  {:>13.3f}  {:>20.3f}  {:>14}  {:>11}  {:>31.2f}  {:.9g}{}\n",
         row.candidates, layers, mu, by == ContactBy::compliance ? "condensed" : "in tangent",

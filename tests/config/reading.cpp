@@ -10,6 +10,9 @@
 #include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
+
+namespace reading_tests {
+
 using sample::Sample;
 
 namespace {
@@ -311,3 +314,5 @@ TEST_CASE("broken and random texts are refused or read, nothing else") {
   }
   CHECK(read_well > 0);
 }
+
+}  // namespace reading_tests

@@ -15,6 +15,8 @@
 
 using namespace langer;
 
+namespace meaning_tests {
+
 namespace {
 
 class Dice {
@@ -363,3 +365,5 @@ TEST_CASE(
     }
   }
 }
+
+}  // namespace meaning_tests

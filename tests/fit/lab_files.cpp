@@ -15,6 +15,8 @@
 
 using namespace langer;
 
+namespace lab_files_tests {
+
 namespace {
 
 TestFormat sized(double width = 10, double thickness = 2, double length = 40) {
@@ -279,3 +281,5 @@ TEST_CASE("any table of numbers in any dialect is read back to the last digit, o
     for (std::size_t i = 0; i < 4; ++i) CHECK(t.stress_x[i] == near(1e-3 * stress[i], 1e-14));
   }
 }
+
+}  // namespace lab_files_tests

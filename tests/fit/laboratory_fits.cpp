@@ -14,6 +14,8 @@
 
 using namespace langer;
 
+namespace laboratory_fits_tests {
+
 namespace {
 
 const std::string folder = BINARY_DIR "/tests/laboratory_fits";
@@ -289,3 +291,5 @@ TEST_CASE(
   CHECK(goh.best.p[4] > 0.2);
   CHECK(goh.best.p[4] < 1. / 3);
 }
+
+}  // namespace laboratory_fits_tests

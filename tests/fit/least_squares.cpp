@@ -13,6 +13,8 @@
 
 using namespace langer;
 
+namespace least_squares_tests {
+
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -294,3 +296,5 @@ TEST_CASE(
     CHECK(flat.p[1] == -0.5);
   }
 }
+
+}  // namespace least_squares_tests

@@ -15,6 +15,8 @@
 
 using namespace langer;
 
+namespace periodic_tests {
+
 namespace {
 
 const Volume volume{QuadraticVolume{1e-6}};
@@ -229,3 +231,5 @@ TEST_CASE("a tie to a number that is not fitted, and one with factor and offset"
   q.tests = measured(truth, 0, 1);
   CHECK(fit(q, {.starts = 2}).best.p[0] == near(0.3, 1e-9));
 }
+
+}  // namespace periodic_tests

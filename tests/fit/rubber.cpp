@@ -10,6 +10,8 @@
 
 using namespace langer;
 
+namespace rubber_tests {
+
 namespace {
 
 const std::string folder = SOURCE_DIR "/../shared/data/";
@@ -124,3 +126,5 @@ TEST_CASE("Yeoh, Gent, Arruda-Boyce and Ogden on Kawabata's general biaxial test
   gives("Gent", gent, of_gent, tests, {0.347, 200}, 0.931);
   gives("Arruda-Boyce", chains, of_chains, tests, {0.359, 20}, 0.934);
 }
+
+}  // namespace rubber_tests

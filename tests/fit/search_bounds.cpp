@@ -7,6 +7,8 @@
 
 using namespace langer;
 
+namespace search_bounds_tests {
+
 namespace {
 
 // all models with numbers of their own bounds
@@ -87,3 +89,5 @@ TEST_CASE("bounds that the config names replace the ones of the number") {
   CHECK(found.lower == 0);
   CHECK(found.upper == 7);
 }
+
+}  // namespace search_bounds_tests

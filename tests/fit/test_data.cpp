@@ -10,6 +10,8 @@
 
 using namespace langer;
 
+namespace test_data_tests {
+
 namespace {
 
 TestFormat biaxial() {
@@ -135,3 +137,5 @@ TEST_CASE("forces that are normalised need no sizes, others do") {
         std::vector<double>{0, 1});
   CHECK_THROWS_AS(parse_tests("strain,force_N\n0,0\n0.1,0\n", "l.csv", f), Failure);
 }
+
+}  // namespace test_data_tests

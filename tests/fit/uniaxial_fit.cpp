@@ -16,6 +16,9 @@
 #include "support/near.hpp"
 
 using namespace langer;
+
+namespace uniaxial_fit_tests {
+
 using test::Curve, test::fit_uniaxial, test::curve_error;
 
 namespace {
@@ -219,3 +222,5 @@ TEST_CASE("too few points and a curve without stress are refused") {
   c.strain = {0.1, 0.2, 0.3}, c.stress = {0, 0, 0};
   CHECK_THROWS_AS(fit_uniaxial(c, yeoh, yeoh_parameters()), Failure);
 }
+
+}  // namespace uniaxial_fit_tests

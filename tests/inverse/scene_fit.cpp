@@ -21,6 +21,9 @@
 #include "support/near.hpp"
 
 using namespace langer;
+
+namespace scene_fit_tests {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -594,3 +597,5 @@ TEST_CASE("A prior of the thickness widens what the force alone says, and what i
   CHECK(one->factor == near(widest, 0.02));
   holds(in_words(*one), "is fixed at 3 mm; freeing it widens");
 }
+
+}  // namespace scene_fit_tests

@@ -13,6 +13,8 @@
 
 using namespace langer;
 
+namespace sensitivity_tests {
+
 namespace {
 
 const std::string skin =
@@ -381,3 +383,5 @@ TEST_CASE("derivatives by numbers that are 0 or almost 0 have all their digits")
     CHECK((zero.force_ind - small.force_ind).norm() < 1e-7 * zero.force_ind.norm());
   }
 }
+
+}  // namespace sensitivity_tests

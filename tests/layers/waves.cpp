@@ -12,6 +12,8 @@
 
 using namespace langer;
 
+namespace waves_tests {
+
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -223,3 +225,5 @@ TEST_CASE("waves askew to fibres and stretch have the speeds that the Stroh form
     CHECK(wave.speed == near(speed, 1e-6));
   }
 }
+
+}  // namespace waves_tests

@@ -11,6 +11,8 @@
 
 using namespace langer;
 
+namespace wrinkles_tests {
+
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -165,3 +167,5 @@ TEST_CASE("a stiff film wrinkles as the exact solution of two layers says") {
     CHECK(found.wavelength * found.s == near(exact.wavelength, 1e-4));
   }
 }
+
+}  // namespace wrinkles_tests

@@ -18,6 +18,8 @@
 
 using namespace langer;
 
+namespace exchange_tests {
+
 namespace {
 
 std::string folder() {
@@ -273,3 +275,5 @@ TEST_CASE(
   std::ofstream(folder() + "/no.step") << "nothing";
   CHECK_THROWS_AS(read_solid(folder() + "/no.step", false, 1, CellType::hex8, notes), Failure);
 }
+
+}  // namespace exchange_tests

@@ -18,6 +18,8 @@
 
 using namespace langer;
 
+namespace inp_cells_tests {
+
 namespace {
 
 // from the manuals: our node of each of theirs
@@ -209,3 +211,5 @@ TEST_CASE("cells that are none of ours, two kinds, or too few nodes are refused 
   CHECK(refusal("*SURFACE, NAME=side\n1, S5\n" + written(mesh, "C3D10", first(10)))
             .starts_with("m.inp:2:1: found the side \"S5\"; expected S1 to S4"));
 }
+
+}  // namespace inp_cells_tests

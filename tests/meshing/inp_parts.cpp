@@ -22,6 +22,8 @@
 
 using namespace langer;
 
+namespace inp_parts_tests {
+
 namespace {
 
 // A unit cube of one element, with its numbers in `order`.
@@ -484,3 +486,5 @@ TEST_CASE("shells on the surface mark its facets, and that their stiffness is lo
   CHECK(std::abs(area(mesh, "membrane") - 1) < 1e-14);
   CHECK(notes == std::vector<std::string>{"left out, as they are no mesh: elements S4R"});
 }
+
+}  // namespace inp_parts_tests

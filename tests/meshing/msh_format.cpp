@@ -25,6 +25,8 @@
 
 using namespace langer;
 
+namespace msh_format_tests {
+
 namespace {
 
 std::string folder() {
@@ -328,3 +330,5 @@ TEST_CASE("an element that format 2 lists once for each of its groups is in each
   }
   CHECK(notes.empty());
 }
+
+}  // namespace msh_format_tests

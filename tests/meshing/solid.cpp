@@ -21,6 +21,8 @@
 
 using namespace langer;
 
+namespace solid_tests {
+
 namespace {
 
 std::string folder() {
@@ -255,3 +257,5 @@ TEST_CASE("a tetrahedron is split into four hexahedra that fill it") {
   CHECK(found.least_jacobian > 0);
   CHECK(std::abs(found.volume - edges.determinant() / 6) < 1e-12);
 }
+
+}  // namespace solid_tests

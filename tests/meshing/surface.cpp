@@ -13,6 +13,8 @@
 
 using namespace langer;
 
+namespace surface_tests {
+
 namespace {
 
 const std::string tetrahedron =
@@ -130,3 +132,5 @@ TEST_CASE("a file that is no surface is refused, a text with its line") {
             .starts_with("t.stl: no triangles"));
   CHECK_THROWS_AS(read_surface("/nonexistent/t.stl"), Failure);
 }
+
+}  // namespace surface_tests

@@ -6,6 +6,8 @@
 using namespace langer;
 using namespace langer::pipeline;
 
+namespace siblings_tests {
+
 namespace {
 
 Tree no_file(const std::string& path) {
@@ -53,3 +55,5 @@ TEST_CASE("all families have to fit; what asks for its own solution gets none") 
   CHECK(offered("20, 200", two + ", accuracy: 1%") == "020 200");
   CHECK(offered("20, 200", two + ", estimate: recovery") == "020 200");
 }
+
+}  // namespace siblings_tests

@@ -19,6 +19,9 @@
 #include "support/near.hpp"
 
 using namespace langer;
+
+namespace figure_style_tests {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -260,3 +263,5 @@ TEST_CASE("a style that cannot be is refused") {
   style.formats = {PictureFormat::pdf, PictureFormat::pdf};
   CHECK(style.complaints().at(0).key == "formats[1]");
 }
+
+}  // namespace figure_style_tests

@@ -20,6 +20,9 @@
 #include "support/near.hpp"
 
 using namespace langer;
+
+namespace stage_tests {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -297,3 +300,5 @@ TEST_CASE("a solution that is missing, cut short or of another kind ends with co
   CHECK(run.code == 3);
   CHECK_FALSE(fs::exists(where + "/out/curves.h5"));
 }
+
+}  // namespace stage_tests

@@ -18,19 +18,15 @@ namespace langer::relations {
 
 namespace {
 
-std::string text(const Vec3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
-}
-
 std::string box_text(const BoxSet& box) {
-  return fmt::format("{{box: {{from: {}, to: {}}}}}", text(box.from), text(box.to));
+  return fmt::format("{{box: {{from: {}, to: {}}}}}", vector_text(box.from), vector_text(box.to));
 }
 
 std::string geometry_text(const Body& body) {
   if (body.kind == BodyKind::block) {
     return fmt::format("block: {{origin: {}, size: {}, divisions: [{}, {}, {}]}}",
-                       text(body.origin), text(body.size), body.divisions[0], body.divisions[1],
-                       body.divisions[2]);
+                       vector_text(body.origin), vector_text(body.size), body.divisions[0],
+                       body.divisions[1], body.divisions[2]);
   }
   const char* of = "axisymmetric";
   if (body.kind == BodyKind::plane_strain) {
@@ -168,6 +164,10 @@ std::string inp_text(const Body& body) {
     return tetrahedra_text(mesh);
   }
   return langer::inp_text(mesh);
+}
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
 }
 
 }  // namespace langer::relations

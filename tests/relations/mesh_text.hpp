@@ -7,6 +7,8 @@
 
 namespace langer::relations {
 
+std::string vector_text(const Vec3& v);  // all digits
+
 std::string mesh_yaml(const Body& body);
 
 // as .inp: a block's hexahedra, or six tetrahedra for each, with all sets, turned by body.turn

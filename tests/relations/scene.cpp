@@ -185,10 +185,6 @@ Contact mapped(Contact contact, const Change& change) {
   return contact;
 }
 
-std::string text(const Vec3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
-}
-
 std::string text(const History& history) {
   std::vector<std::string> points;
   for (const HistoryPoint& point : history) {
@@ -243,7 +239,7 @@ std::string text(const Load& load) {
   }
   if (load.kind == LoadKind::rotation) {
     return on + fmt::format("rotation: {{angle: {}, axis: {}, through: {}}}}}\n",
-                            text(load.history), text(load.axis), text(load.through));
+                            text(load.history), vector_text(load.axis), vector_text(load.through));
   }
   std::vector<std::string> components;
   for (int axis = 0; axis < 3; ++axis) {
@@ -262,8 +258,8 @@ std::string text(const Load& load) {
 }
 
 std::string shape_text(const Contact& contact) {
-  const std::string place = text(contact.place);
-  const std::string axis = text(contact.axis);
+  const std::string place = vector_text(contact.place);
+  const std::string axis = vector_text(contact.axis);
   switch (contact.shape) {
     case ShapeKind::sphere:
       return fmt::format("sphere: {{radius: {:.17g}, centre: {}}}", contact.radius, place);
@@ -278,7 +274,8 @@ std::string shape_text(const Contact& contact) {
     case ShapeKind::ellipsoid:
       break;
   }
-  return fmt::format("ellipsoid: {{half_axes: {}, centre: {}}}", text(contact.half_axes), place);
+  return fmt::format("ellipsoid: {{half_axes: {}, centre: {}}}", vector_text(contact.half_axes),
+                     place);
 }
 
 std::string text(const Contact& contact) {
@@ -290,14 +287,14 @@ std::string text(const Contact& contact) {
                      contact.friction);
   std::vector<std::string> motion;
   for (const Waypoint& point : contact.motion) {
-    motion.push_back(fmt::format("{{t: {:.17g}, to: {}}}", point.t, text(point.to)));
+    motion.push_back(fmt::format("{{t: {:.17g}, to: {}}}", point.t, vector_text(point.to)));
   }
   if (!motion.empty()) {
     all += fmt::format("    motion: [{}]\n", fmt::join(motion, ", "));
   }
   if (contact.push) {
     all += fmt::format("    control: {{force: {}, along: {}}}\n", text(contact.push->force),
-                       text(contact.push->along));
+                       vector_text(contact.push->along));
   }
   if (contact.rotation) {
     all += fmt::format("    rotation: {}\n", text(*contact.rotation));

@@ -14,6 +14,8 @@
 
 using namespace langer;
 
+namespace critical_points_tests {
+
 namespace {
 
 struct Followed {
@@ -355,3 +357,5 @@ TEST_CASE("cap: a path with arc lengths goes on with the same digits after a kil
   REQUIRE(rest.critical);
   CHECK(rest.critical->t == whole.critical->t);
 }
+
+}  // namespace critical_points_tests

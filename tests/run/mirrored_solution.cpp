@@ -10,6 +10,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace mirrored_solution_tests {
+
 using test::config_of, test::largest_difference, test::mesh_in, test::nowhere;
 
 namespace {
@@ -99,3 +102,5 @@ TEST_CASE("what no mirror and no turn takes there is not an image, and it is sai
   CHECK_FALSE(Pair({.x = 0.3, .z = 0.1}, 155).operation);
   CHECK(Pair({.x = 0.3, .z = 0.1}, 155).why.find("ball") != std::string::npos);
 }
+
+}  // namespace mirrored_solution_tests

@@ -14,6 +14,8 @@
 
 using namespace langer;
 
+namespace viscous_tests {
+
 namespace {
 
 const std::string branches =
@@ -327,3 +329,5 @@ TEST_CASE("viscous: a viscous material wants the duration of the path") {
   CHECK(test::said_of_scene(pull("hex8") + material(branches), test::mesh_in(config))
             .find("path.seconds") != std::string::npos);
 }
+
+}  // namespace viscous_tests

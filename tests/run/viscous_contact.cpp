@@ -12,6 +12,8 @@
 
 using namespace langer;
 
+namespace viscous_contact_tests {
+
 namespace {
 
 constexpr double R = 10, mu = 1, end = 30;  // [mm], [MPa] left after all has relaxed, [s]
@@ -91,3 +93,5 @@ TEST_CASE(
   CHECK(worst[0] < 1e-3);
   CHECK(worst[1] < 0.4 * worst[0]);
 }
+
+}  // namespace viscous_contact_tests

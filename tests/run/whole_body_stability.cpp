@@ -12,6 +12,8 @@
 
 using namespace langer;
 
+namespace whole_body_stability_tests {
+
 namespace {
 
 struct Watched {
@@ -248,3 +250,5 @@ TEST_CASE("a section says that it does not show how a body leaves its plane") {
   REQUIRE(found.notes.size() == 1);
   CHECK(found.notes[0].find("out of its plane") != std::string::npos);
 }
+
+}  // namespace whole_body_stability_tests

@@ -11,6 +11,9 @@
 #include "support/block.hpp"
 
 using namespace langer;
+
+namespace bad_mesh_tests {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -61,3 +64,5 @@ TEST_CASE(
     CHECK(run.said.find("expected a positive Jacobian everywhere") != std::string::npos);
   }
 }
+
+}  // namespace bad_mesh_tests

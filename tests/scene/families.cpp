@@ -12,6 +12,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace families_tests {
+
 using test::config_of, test::nowhere;
 
 namespace {
@@ -181,3 +184,5 @@ TEST_CASE("Angles and fields that nothing takes are refused at their key") {
   holds(test::said_of_scene(top + "fibre_field: null\nfibre_angles: [20]\n" + pulled, mesh),
         "accepted");
 }
+
+}  // namespace families_tests

@@ -15,6 +15,8 @@
 
 using namespace langer;
 
+namespace fibre_field_tests {
+
 namespace {
 constexpr double degree = std::numbers::pi / 180;
 Place nowhere(const std::string&) { return {"solve.yaml", 7, 3}; }
@@ -111,3 +113,5 @@ TEST_CASE(
                        Failure);
   std::filesystem::remove_all(folder);
 }
+
+}  // namespace fibre_field_tests

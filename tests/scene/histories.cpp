@@ -15,6 +15,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace histories_tests {
+
 using test::config_of, test::mesh_in, test::nowhere;
 
 namespace {
@@ -193,3 +196,5 @@ TEST_CASE("a stage that the path would pass over is refused at its point") {
   CHECK(says("[{s: 5, to: 0.1}, {s: 5.0001, to: 0.2}, {s: 1.0e+6, to: 0.1}]")
             .find("loads[0].displacement.x[1]") != std::string::npos);
 }
+
+}  // namespace histories_tests

@@ -14,6 +14,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace images_tests {
+
 using test::largest_difference, test::nowhere;
 
 namespace {
@@ -342,3 +345,5 @@ TEST_CASE(
     CHECK(words_of(SymmetryChoice::automatic, p.mesh, p.scene) == "none");
   }
 }
+
+}  // namespace images_tests

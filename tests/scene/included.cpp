@@ -11,6 +11,9 @@
 #include "scene/model/solve_config_io.hpp"
 
 using namespace langer;
+
+namespace included_tests {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -164,3 +167,5 @@ TEST_CASE(
   // of maps that do not choose nothing is refused
   CHECK(terms(read<Material>(with("top.yaml", "volume.quadratic.d", "0.7"))) == "yeoh");
 }
+
+}  // namespace included_tests

@@ -14,6 +14,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace loads_tests {
+
 using test::config_of, test::mesh_in, test::nowhere;
 
 namespace {
@@ -211,3 +214,5 @@ TEST_CASE("what a load cannot be is refused at its key") {
       says(section + "[{on: top, force: {x: -1}}]").find("loads[0].force.x: found on a section") !=
       std::string::npos);
 }
+
+}  // namespace loads_tests

@@ -12,6 +12,8 @@
 
 using namespace langer;
 
+namespace messages_tests {
+
 namespace {
 
 // what the reader says of a config: its errors, or its notices
@@ -129,3 +131,5 @@ TEST_CASE("a folded cell of a file is the file's: no advice about numbers of the
   CHECK(mesh_of_file(1) == "accepted");
   fs::remove_all(folder);
 }
+
+}  // namespace messages_tests

@@ -22,6 +22,8 @@
 using namespace langer;
 using namespace langer::test;
 
+namespace section_tests {
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -334,3 +336,5 @@ TEST_CASE(
         std::string::npos);
   std::filesystem::remove(along), std::filesystem::remove(off);
 }
+
+}  // namespace section_tests

@@ -12,6 +12,8 @@
 using namespace langer;
 using namespace langer::test;
 
+namespace section_contact_tests {
+
 TEST_CASE("how thin the wedge is makes no difference to what an indentation gives") {
   const SolveConfig config = config_of(indentation(disc(0.35, "hex8"), ball(0.34) + tight));
   std::vector<double> force, stress;
@@ -104,3 +106,5 @@ TEST_CASE("a strip under a bar is a slab of the block under the same bar") {
   for (int k : {0, 1}) CHECK(flat.last().force_ind[k] == near(deep.last().force_ind[k], 1e-4));
   CHECK(flat.last().force_ind.norm() > 0.1);
 }
+
+}  // namespace section_contact_tests

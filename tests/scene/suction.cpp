@@ -17,6 +17,8 @@
 using namespace langer;
 using namespace langer::test;
 
+namespace suction_tests {
+
 namespace {
 
 std::string layers(int across, double a1_above) {
@@ -200,3 +202,5 @@ TEST_CASE("holes, rings and layers of a section are the same whatever the number
     CHECK(border == near(2.9, 1e-12));
   }
 }
+
+}  // namespace suction_tests

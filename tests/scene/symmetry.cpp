@@ -12,6 +12,9 @@
 #include "support/solved_scene.hpp"
 
 using namespace langer;
+
+namespace symmetry_tests {
+
 using test::largest_difference, test::nowhere;
 
 namespace {
@@ -195,3 +198,5 @@ TEST_CASE("a reduced run continues from what was written of the whole body") {
   for (int i = 0; i < part->mesh().n_nodes(); ++i)
     if (part->scene().dofs.tie[i].of != i) CHECK(state.u.segment<3>(3 * i).isZero(0));
 }
+
+}  // namespace symmetry_tests

@@ -11,6 +11,8 @@
 
 using namespace langer;
 
+namespace sampling_tests {
+
 namespace {
 
 VecX vec(std::initializer_list<double> x) {
@@ -253,3 +255,5 @@ TEST_CASE(
   CHECK(std::is_sorted(told.begin(), told.end()));
   CHECK(told.back() == 1);
 }
+
+}  // namespace sampling_tests

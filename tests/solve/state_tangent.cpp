@@ -13,6 +13,8 @@
 
 using namespace langer;
 
+namespace state_tangent_tests {
+
 namespace {
 
 enum Number { a1, a3, c1, c2, kappa, alpha, d, friction };
@@ -218,3 +220,5 @@ TEST_CASE(
       if (off) CHECK(*off < (scene.mu > 0 ? 1e-3 : 1e-5));
     }
 }
+
+}  // namespace state_tangent_tests

@@ -13,6 +13,9 @@
 #include "support/refusal.hpp"
 
 using namespace langer;
+
+namespace elsewhere_tests {
+
 using example::holds;
 using example::refusal;
 
@@ -181,3 +184,5 @@ TEST_CASE("fits and curves in other units are refused too") {
         {"/curves/force/x", "um", "/curves/force/x: values in um"},
         {"/summary/force", "mN", "/summary/force: values in mN"}});
 }
+
+}  // namespace elsewhere_tests

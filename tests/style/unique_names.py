@@ -16,6 +16,7 @@ FUNCTION = re.compile(r"^(?:template <.*>\n)?(?:\[\[\w+\]\] )?(?:[\w:][\w:<>,&*\
 CONSTANT = re.compile(r"^(?:static |inline )?(?:constexpr|const) [\w:<>,\* ]+?[ &*](\w+)(?:\[\w*\])? ?[={]", re.M)
 TYPE = re.compile(r"^(?:struct|class|enum class|enum) (\w+)", re.M)  # an alias may be repeated
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.M | re.S)
+OWN_NAMESPACE = re.compile(r"^namespace \w+_tests \{$", re.M)
 NOT_NAMES = {"if", "for", "while", "switch", "return", "operator"}
 
 
@@ -29,7 +30,9 @@ def parameter_types(text):
 
 
 def definitions(text):
-    """What the anonymous namespaces of a source define, each as one text."""
+    """What the anonymous namespaces of a source define, each as one text; of tests inside a namespace of their own nothing."""
+    if OWN_NAMESPACE.search(text):
+        return
     for part in ANONYMOUS.findall(text):
         for match in FUNCTION.finditer(part):
             if match[1] not in NOT_NAMES:
@@ -41,13 +44,13 @@ def definitions(text):
 
 def main():
     where = defaultdict(lambda: defaultdict(list))
-    for path in sorted((ROOT / "lib").rglob("*.cpp")):
+    for path in sorted((ROOT / "lib").rglob("*.cpp")) + sorted((ROOT / "tests").rglob("*.cpp")):
         for name in set(definitions(path.read_text(errors="replace"))):
             where[path.parent][name].append(path.name)
     n = sum(len(names) for names in where.values())
     if n < 500:
         sys.exit(f"only {n} definitions found: this script no longer reads the sources")
-    found = [f"{folder.relative_to(ROOT)}: {name} is defined in {' and '.join(files)}; rename one or share it"
+    found = [f"{folder.relative_to(ROOT)}: {name} is defined in {' and '.join(files)}; rename one or share it; or, in tests, put all of a source into a namespace called after it"
              for folder, names in sorted(where.items()) for name, files in sorted(names.items()) if len(files) > 1]
     print(f"{n} definitions in {len(where)} folders")
     for line in found:

@@ -1,12 +1,14 @@
 #include "accuracy/checks/free_surface.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "core/tensor/kinematics.hpp"
+#include "core/tensor/principal.hpp"
 #include "core/tensor/push_forward.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/mesh/facets.hpp"
@@ -55,12 +57,12 @@ double surface_margin(const Material& material, const Mat3& F, const Vec3& n) {
   const Vec3 u = normal.unitOrthogonal();
   const Vec3 v = normal.cross(u);
   const Mat3 b = F * F.transpose();
-  Eigen::Matrix2d in_plane;
+  Mat2 in_plane;
   in_plane << u.dot(b * u), u.dot(b * v), u.dot(b * v), v.dot(b * v);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(in_plane);
+  const PlanePrincipal axes = principal(in_plane);
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector2d direction = principal.eigenvectors().col(k);
+    const Vec2 direction = axes.directions.col(k);
     Mat3 frame;
     frame.col(0) = direction[0] * u + direction[1] * v;
     frame.col(1) = normal;
@@ -136,7 +138,9 @@ std::optional<FreeSurface::Weakest> FreeSurface::weakest(
     const Mat3 F = Mat3::Identity() +
                    displacement_gradient(
                        u, body.geometry(facet.cell).dN_dX[static_cast<std::size_t>(facet.point)]);
-    if (F.jacobiSvd().singularValues()[2] > shortened * std::cbrt(F.determinant())) continue;
+    if (std::sqrt(principal_values(right_cauchy_green(F))[0]) >
+        shortened * std::cbrt(F.determinant()))
+      continue;
     bool is_touched = false;
     for (const int node : facet.nodes) is_touched = is_touched || touched.contains(node);
     if (is_touched) continue;

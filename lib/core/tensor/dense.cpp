@@ -1,6 +1,5 @@
 #include "core/tensor/dense.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -39,6 +38,18 @@ void LeastNorm::compute(const MatX& A) { all_.compute(A); }
 VecX LeastNorm::solve(const VecX& b) const { return all_.solve(b); }
 MatX LeastNorm::solve_columns(const MatX& B) const { return all_.solve(B); }
 
+Cholesky::Cholesky(const MatX& A) : llt_(A) {}
+bool Cholesky::positive_definite() const { return llt_.info() == Eigen::Success; }
+MatX Cholesky::L() const { return llt_.matrixL(); }
+double Cholesky::log_determinant() const {
+  return 2 * llt_.matrixLLT().diagonal().array().log().sum();
+}
+VecX Cholesky::solve(const VecX& b) const { return llt_.solve(b); }
+MatX Cholesky::solve_columns(const MatX& B) const { return llt_.solve(B); }
+MatX Cholesky::inverse() const { return llt_.solve(MatX::Identity(llt_.rows(), llt_.cols())); }
+
+VecX solve_symmetric(const MatX& A, const VecX& b) { return A.ldlt().solve(b); }
+
 Svd svd(const MatX& A) {
   const Eigen::JacobiSVD<MatX> of(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {of.matrixU(), of.singularValues(), of.matrixV()};
@@ -58,7 +69,5 @@ MatX covariance_root(const MatX& C) {
       symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
   return size.asDiagonal() * scaled.vectors * scaled.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
-
-bool positive_definite(const MatX& A) { return Eigen::LLT<MatX>(A).info() == Eigen::Success; }
 
 }  // namespace langer

@@ -2,6 +2,7 @@
 // the compiler seconds.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -65,6 +66,25 @@ class LeastNorm {
   Eigen::CompleteOrthogonalDecomposition<MatX> all_;
 };
 
+// Cholesky's A = L L^T of a symmetric positive definite matrix; reads the lower triangle alone
+class Cholesky {
+ public:
+  explicit Cholesky(const MatX& A);
+
+  bool positive_definite() const;  // where false the others have no meaning
+  MatX L() const;
+  double log_determinant() const;
+  VecX solve(const VecX& b) const;
+  MatX solve_columns(const MatX& B) const;
+  MatX inverse() const;
+
+ private:
+  Eigen::LLT<MatX> llt_;
+};
+
+// x of A x = b by L D L^T, A symmetric and definite or nearly so
+VecX solve_symmetric(const MatX& A, const VecX& b);
+
 // A = U diag(values) V^T, n = min(rows, columns)
 struct Svd {
   MatX U;       // (rows, n)
@@ -84,7 +104,5 @@ VecX symmetric_eigenvalues(const MatX& A);  // (n), ascending
 // C = R R^T of a covariance, by eigenvalues in units of its diagonal; those that rounding makes
 // negative are 0
 MatX covariance_root(const MatX& C);
-
-bool positive_definite(const MatX& A);
 
 }  // namespace langer

@@ -3,9 +3,9 @@
 //   sigma  Cauchy stress (3,3) [MPa]
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/tensor/principal.hpp"
 #include "core/tensor/voigt.hpp"
 
 namespace langer {
@@ -25,9 +25,6 @@ inline double von_mises(const Mat3& sigma) {
 }
 
 // greatest first [MPa]
-inline Vec3 principal_stresses(const Mat3& sigma) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(sigma, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().reverse();
-}
+inline Vec3 principal_stresses(const Mat3& sigma) { return principal_values(sigma).reverse(); }
 
 }  // namespace langer

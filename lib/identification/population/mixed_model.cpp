@@ -1,6 +1,5 @@
 #include "identification/population/mixed_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,7 +89,7 @@ class LinearMixed {
     const MatX omega = L * L.transpose();
     const double variance = std::exp(x[size() - 1]);
     const auto k = specimens_.front().design.cols();
-    std::vector<Eigen::LLT<MatX>> factors;
+    std::vector<Cholesky> factors;
     MatX normal = MatX::Zero(k, k);
     VecX right = VecX::Zero(k);
     double sum = 0;
@@ -100,17 +99,17 @@ class LinearMixed {
       MatX S = Rr * omega * Rr.transpose();
       S.diagonal().array() += variance;
       factors.emplace_back(S);
-      if (factors.back().info() != Eigen::Success) {
+      if (!factors.back().positive_definite()) {
         return value;
       }
       const MatX X = one.R * specimens_[i].design;
-      const MatX SX = factors.back().solve(X);
+      const MatX SX = factors.back().solve_columns(X);
       normal += X.transpose() * SX;
       right += SX.transpose() * one.c;
       const double left = one.values - static_cast<double>(one.c.size());
       sum += left * std::log(variance) + one.rest / variance +
              one.values * std::log(2 * std::numbers::pi);
-      sum += 2 * factors.back().matrixLLT().diagonal().array().log().sum();
+      sum += factors.back().log_determinant();
     }
     // what the data say nothing of stays where it is
     value.beta = reference + LeastNorm(normal, 1e-10).solve(right - normal * reference);
@@ -135,7 +134,7 @@ class LinearMixed {
         continue;
       }
       const auto n = one.c.size();
-      const MatX inverse = factors[i].solve(MatX::Identity(n, n));
+      const MatX inverse = factors[i].inverse();
       const MatX Rr = one.R(Eigen::all, random_);
       const MatX P = Rr.transpose() * inverse * Rr;
       const MatX Q = Rr.transpose() * inverse * inverse * Rr;
@@ -162,8 +161,8 @@ class LinearMixed {
     const MatX L = factor(x);
     const MatX omega = L * L.transpose();
     const double variance = std::exp(x[size() - 1]);
-    const Eigen::LLT<MatX> information(value.beta_information);
-    value.log_determinant = 2 * information.matrixLLT().diagonal().array().log().sum();
+    const Cholesky information(value.beta_information);
+    value.log_determinant = information.log_determinant();
     value.log_determinant_gradient = VecX::Zero(size());
     MatX of_omega = MatX::Zero(random_size(), random_size());
     double of_variance = 0;
@@ -172,8 +171,8 @@ class LinearMixed {
       const MatX Rr = one.R(Eigen::all, random_);
       MatX S = Rr * omega * Rr.transpose();
       S.diagonal().array() += variance;
-      const MatX M = S.llt().solve(one.R * specimens_[i].design);
-      const MatX G = M * information.solve(M.transpose());
+      const MatX M = Cholesky(S).solve_columns(one.R * specimens_[i].design);
+      const MatX G = M * information.solve_columns(M.transpose());
       of_omega += Rr.transpose() * G * Rr;
       of_variance += variance * G.trace();
     }
@@ -203,7 +202,7 @@ class LinearMixed {
       const double least = 1e-12 * H.diagonal().maxCoeff();
       H.diagonal() += damping * H.diagonal();
       H.diagonal().array() += least;
-      const VecX step = -H.ldlt().solve(now.gradient);
+      const VecX step = -solve_symmetric(H, now.gradient);
       const double promised = -step.dot(now.gradient);
       Value next = at(x + step, true);
       if (next.minus_two_log_likelihood < now.minus_two_log_likelihood) {
@@ -326,7 +325,7 @@ class ScatterDensity {
         slope[static_cast<Eigen::Index>(e)] = x[static_cast<Eigen::Index>(e)];
     H = (slope.asDiagonal() * H * slope.asDiagonal()).eval();
     H.diagonal().array() += 0.25;
-    return H.llt().solve(MatX::Identity(H.rows(), H.cols()));
+    return Cholesky(H).inverse();
   }
 
  private:
@@ -355,7 +354,7 @@ bool find_mode(const MixedSpecimen& specimen, const VecX& centre, const MatX& sp
     MatX H = weight * (K.transpose() * K);
     H.diagonal().array() += 1;
     H.diagonal() += damping * H.diagonal();
-    const VecX step = -H.ldlt().solve(gradient);
+    const VecX step = -solve_symmetric(H, gradient);
     VecX u_next;
     MatX J_next;
     const VecX z_next = z + step;
@@ -566,7 +565,7 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
   MixedResult result;
   static_cast<MixedState&>(result) = start;
   const MatX omega_start = start.omega(random, random);
-  MatX L = omega_start.llt().matrixL();
+  MatX L = Cholesky(omega_start).L();
   if (!options.full) {
     L = omega_start.diagonal().cwiseSqrt().asDiagonal();
   }
@@ -661,7 +660,7 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
     S.diagonal().array() += result.sigma * result.sigma;
     const MatX half = Rr * omega_random;
     MatX explained = MatX::Zero(q, q);
-    explained(random, random) = half.transpose() * S.llt().solve(half);
+    explained(random, random) = half.transpose() * Cholesky(S).solve_columns(half);
     result.explained.push_back(explained);
     result.values += static_cast<int>(one.values);
   }
@@ -685,11 +684,11 @@ MixedDraws mixed_posterior(const std::vector<MixedSpecimen>& specimens, const Mi
   // a deviation that the estimate puts at 0 begins at a small one
   MatX omega = estimate.omega(random, random);
   omega.diagonal().array() += 1e-4 * std::max(1e-12, omega.diagonal().maxCoeff());
-  const MatX L = omega.llt().matrixL();
+  const MatX L = Cholesky(omega).L();
   const ScatterDensity density(model, L);
   const VecX start = density.place(model.parameters(L, estimate.sigma));
   const MatX scale = density.scale(start);
-  const MatX root = scale.llt().matrixL();
+  const MatX root = Cholesky(scale).L();
 
   const int each = (config.samples + config.chains - 1) / config.chains;
   std::vector<NutsChain> chains(static_cast<std::size_t>(config.chains));

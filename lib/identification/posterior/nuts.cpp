@@ -1,11 +1,11 @@
 #include "identification/posterior/nuts.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/random.hpp"
+#include "core/tensor/dense.hpp"
 
 namespace langer {
 
@@ -48,7 +48,7 @@ class Sampler {
 
   void set_scale(const MatX& scale) {
     scale_ = scale;
-    lower_ = scale.llt().matrixL();
+    lower_ = Cholesky(scale).L();
   }
 
   // One path from a point, and a point of it.

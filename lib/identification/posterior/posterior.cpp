@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -144,7 +143,7 @@ class FitDensity {
       if (!one.below && !one.above) own = 1 / (15. * 15.);
       H(i, i) += own;
     }
-    return H.llt().solve(MatX::Identity(k, k));
+    return Cholesky(H).inverse();
   }
 
  private:
@@ -200,7 +199,7 @@ Posterior posterior(const FitProblem& problem, const FitResult& fit, const Poste
                       static_cast<std::uint64_t>(chain));
         VecX z(p);
         for (double& one : z) one = random.normal();
-        const MatX root = scale.llt().matrixL();
+        const MatX root = Cholesky(scale).L();
         VecX begin = start + 2 * (root * z);
         VecX gradient;
         for (int i = 0; i < 20 && !std::isfinite(density(begin, gradient)); ++i)

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse(const Place& place, std::string key, std::string found,
-                         std::string expected, std::string hint = "") {
+[[noreturn]] void refuse_entry(const Place& place, std::string key, std::string found,
+                               std::string expected, std::string hint = "") {
   throw Failure(Exit::input, Error{place, std::move(key), std::move(found), std::move(expected),
                                    std::move(hint)});
 }
@@ -203,8 +203,9 @@ struct Expansion {
   }
 
   [[noreturn]] void refuse_without_test(std::size_t row, const std::string& what) const {
-    refuse(table.rows[row], "specimens", fmt::format("specimen {} without a test", table.ids[row]),
-           what, "leave its row out, or measure it");
+    refuse_entry(table.rows[row], "specimens",
+                 fmt::format("specimen {} without a test", table.ids[row]), what,
+                 "leave its row out, or measure it");
   }
 
   // one file a test, or a specimen
@@ -223,9 +224,10 @@ struct Expansion {
     for (const FoundFile& file : find_files(base, text)) {
       if (known.count(file.path)) continue;
       const std::string id = value_or(file.names, "id", file.path);
-      refuse(place, "specimens.data", fmt::format("{}: {} is not in {}", file.path, id, table_path),
-             "a row for each specimen that was measured",
-             text_or(did_you_mean(nearest(id, table.ids)), "add its row, or move the file"));
+      refuse_entry(place, "specimens.data",
+                   fmt::format("{}: {} is not in {}", file.path, id, table_path),
+                   "a row for each specimen that was measured",
+                   text_or(did_you_mean(nearest(id, table.ids)), "add its row, or move the file"));
     }
   }
 
@@ -240,11 +242,11 @@ struct Expansion {
     for (const Tree::Entry& one : where->map) {
       const auto head = std::ranges::find(data.header.cells, one.key, &CsvCell::text);
       if (head == data.header.cells.end())
-        refuse(one.value.place, "specimens.where." + one.key,
-               fmt::format("{} has no column of this name", path),
-               fmt::format(
-                   "one of {}",
-                   fmt::join(data.header.cells | std::views::transform(&CsvCell::text), ", ")));
+        refuse_entry(one.value.place, "specimens.where." + one.key,
+                     fmt::format("{} has no column of this name", path),
+                     fmt::format("one of {}", fmt::join(data.header.cells |
+                                                            std::views::transform(&CsvCell::text),
+                                                        ", ")));
       at.push_back(static_cast<std::size_t>(head - data.header.cells.begin()));
     }
     const auto texts_of = [&](const CsvRow& row) {
@@ -267,10 +269,10 @@ struct Expansion {
     for (const CsvRow& row : data.rows) {
       const std::vector<std::string> texts = texts_of(row);
       if (wanted.count(texts)) continue;
-      refuse({path, row.line, row.cells[at.front()].column}, "specimens.data",
-             fmt::format("{} is not in {}", fmt::join(texts, ", "), table_path),
-             "a row for each specimen that was measured",
-             text_or(did_you_mean(nearest(texts.front(), table.ids)), "add its row"));
+      refuse_entry({path, row.line, row.cells[at.front()].column}, "specimens.data",
+                   fmt::format("{} is not in {}", fmt::join(texts, ", "), table_path),
+                   "a row for each specimen that was measured",
+                   text_or(did_you_mean(nearest(texts.front(), table.ids)), "add its row"));
     }
   }
 };
@@ -291,19 +293,20 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
   }
   if (id == csv.header.cells.size()) {
     if (id_column != "id")
-      refuse({path, csv.header.line, 1}, "specimens.id",
-             fmt::format("no column is called {}", id_column),
-             "one of " + fmt::format("{}", fmt::join(table.columns, ", ")),
-             did_you_mean(nearest(id_column, table.columns)));
+      refuse_entry({path, csv.header.line, 1}, "specimens.id",
+                   fmt::format("no column is called {}", id_column),
+                   "one of " + fmt::format("{}", fmt::join(table.columns, ", ")),
+                   did_you_mean(nearest(id_column, table.columns)));
     id = 0;
   }
   std::set<std::string> seen;
   for (const CsvRow& row : csv.rows) {
     const CsvCell& name = row.cells[id];
     const Place place{path, row.line, name.column};
-    if (name.text.empty()) refuse(place, "", "a specimen without a name", "its id");
+    if (name.text.empty()) refuse_entry(place, "", "a specimen without a name", "its id");
     if (!seen.insert(name.text).second)
-      refuse(place, "", fmt::format("specimen {} a second time", name.text), "each specimen once");
+      refuse_entry(place, "", fmt::format("specimen {} a second time", name.text),
+                   "each specimen once");
     table.ids.push_back(name.text);
     table.rows.push_back(place);
     for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -311,10 +314,10 @@ SpecimenTable read_specimen_table(const std::string& path, const std::string& id
   }
   if (table.ids.size() < 2) {
     const Place place = table.rows.empty() ? Place{path, csv.header.line, 1} : table.rows.front();
-    refuse(place, "specimens.table",
-           fmt::format("{} specimen{}", table.ids.size(), plural_s(table.ids.size())),
-           "two at least, for a scatter between them",
-           "a fit of one specimen has its tests under `data` and no `specimens`");
+    refuse_entry(place, "specimens.table",
+                 fmt::format("{} specimen{}", table.ids.size(), plural_s(table.ids.size())),
+                 "two at least, for a scatter between them",
+                 "a fit of one specimen has its tests under `data` and no `specimens`");
   }
   return table;
 }
@@ -323,20 +326,21 @@ CovariateColumns covariate_columns(const SpecimenTable& table, const std::string
                                    const Place& asked_at) {
   const auto found = table.texts.find(column);
   if (found == table.texts.end())
-    refuse(asked_at, "specimens.covariates", fmt::format("no column is called {}", column),
-           fmt::format("one of {}", fmt::join(table.columns, ", ")),
-           did_you_mean(nearest(column, table.columns)));
+    refuse_entry(asked_at, "specimens.covariates", fmt::format("no column is called {}", column),
+                 fmt::format("one of {}", fmt::join(table.columns, ", ")),
+                 did_you_mean(nearest(column, table.columns)));
   const std::vector<std::string>& texts = found->second;
   const Place& head = table.heads.at(column);
   for (std::size_t row = 0; row < texts.size(); ++row)
     if (is_blank_cell(texts[row]))
-      refuse(table.rows[row], column, fmt::format("specimen {} without a value", table.ids[row]),
-             "a number or a word", "leave the covariate out, or the specimen");
+      refuse_entry(table.rows[row], column,
+                   fmt::format("specimen {} without a value", table.ids[row]), "a number or a word",
+                   "leave the covariate out, or the specimen");
   CovariateColumns result;
   const std::set<std::string> different(texts.begin(), texts.end());
   if (different.size() == 1)
-    refuse(head, column, fmt::format("{} for every specimen", texts.front()),
-           "a covariate that differs between specimens", "leave it out of covariates");
+    refuse_entry(head, column, fmt::format("{} for every specimen", texts.front()),
+                 "a covariate that differs between specimens", "leave it out of covariates");
   if (std::all_of(texts.begin(), texts.end(), is_number)) {
     std::vector<double> values;
     for (const std::string& text : texts) {
@@ -349,15 +353,16 @@ CovariateColumns covariate_columns(const SpecimenTable& table, const std::string
       spread = std::max(spread, std::abs(x));
     }
     if (!(spread > 1e-12 * std::abs(result.mean)))
-      refuse(head, column, fmt::format("{} for every specimen", texts.front()),
-             "a covariate that differs between specimens", "leave it out of covariates");
+      refuse_entry(head, column, fmt::format("{} for every specimen", texts.front()),
+                   "a covariate that differs between specimens", "leave it out of covariates");
     result.names.push_back(column);
     result.values.push_back(values);
     return result;
   }
   if (2 * different.size() > texts.size())
-    refuse(head, column, fmt::format("{} words for {} specimens", different.size(), texts.size()),
-           "groups of several specimens each, or numbers", "");
+    refuse_entry(head, column,
+                 fmt::format("{} words for {} specimens", different.size(), texts.size()),
+                 "groups of several specimens each, or numbers", "");
   result.reference = *different.begin();
   for (const std::string& word : different) {
     if (word == result.reference) continue;
@@ -385,8 +390,8 @@ void expand_specimens(Tree& config) {
   }
   const fs::path table = (fs::path(path->base) / path->scalar).lexically_normal();
   if (const std::string reason = unreadable_reason(table.string()); !reason.empty())
-    refuse(path->place, "specimens.table", table.string() + ": " + reason,
-           "a CSV file with a row for each specimen");
+    refuse_entry(path->place, "specimens.table", table.string() + ": " + reason,
+                 "a CSV file with a row for each specimen");
   Expansion all{*specimens,
                 *pattern,
                 pattern->base,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/assembly/separate_bodies.hpp"
 #include "mechanics/mesh/reference.hpp"
 
@@ -36,11 +36,11 @@ std::vector<LinePoint> line_points(int n) {
     jacobi(i, i - 1) = beside;
     jacobi(i - 1, i) = beside;
   }
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(jacobi);
+  const SymmetricEigen eigen = symmetric_eigen(jacobi);
   std::vector<LinePoint> points;
   for (int i = 0; i < n; ++i) {
-    const double first = eigen.eigenvectors()(0, i);
-    points.push_back({0.5 * (1 + eigen.eigenvalues()[i]), first * first});
+    const double first = eigen.vectors(0, i);
+    points.push_back({0.5 * (1 + eigen.values[i]), first * first});
   }
   return points;
 }
@@ -202,7 +202,7 @@ void restore_moments(NodeMass& m, const MatX& phi, const MatX& wanted) {
     const auto [k, l] = pairs[static_cast<std::size_t>(p)];
     rhs[p] = missing(k, l);
   }
-  const VecX change = A.completeOrthogonalDecomposition().solve(rhs);
+  const VecX change = LeastNorm(A).solve(rhs);
   for (int column = 0; column < m.outerSize(); ++column) {
     for (NodeMass::InnerIterator entry(m, column); entry; ++entry) {
       of_entry(entry.row(), entry.col());

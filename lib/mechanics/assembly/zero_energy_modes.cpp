@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+
+#include "core/tensor/dense.hpp"
+#include "core/tensor/principal.hpp"
 
 namespace langer {
 
@@ -44,16 +46,16 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   const auto count = [](const auto& e) {
     return static_cast<int>((e.array() < 1e-12 * std::max(1.0, e.maxCoeff())).count());
   };
-  const Eigen::SelfAdjointEigenSolver<Mat66> all(M);
-  const int free = count(all.eigenvalues());
+  const SymmetricEigen all = symmetric_eigen(M);
+  const int free = count(all.values);
   if (free == 0) return "";
   const Mat3 translations = M.topLeftCorner<3, 3>();
-  const int moves = count(Eigen::SelfAdjointEigenSolver<Mat3>(translations).eigenvalues());
+  const int moves = count(principal_values(translations));
   if (free > 1)
     return fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)",
                        free, moves, free - moves);
-  const Vec3 t = all.eigenvectors().col(0).head<3>();
-  const Vec3 w = all.eigenvectors().col(0).tail<3>() / size;
+  const Vec3 t = all.vectors.col(0).head<3>();
+  const Vec3 w = all.vectors.col(0).tail<3>() / size;
   const auto text = [](Vec3 x) {
     for (double& c : x) c = std::abs(c) < 1e-9 ? 0 : c;
     return fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2]);

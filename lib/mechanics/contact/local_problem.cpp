@@ -1,11 +1,11 @@
 #include "mechanics/contact/local_problem.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/tensor/dense.hpp"
+#include "core/tensor/principal.hpp"
 #include "mechanics/contact/alart_curnier.hpp"
 
 namespace langer {
@@ -18,9 +18,7 @@ VecX step_lengths(const LocalProblem& problem) {
   VecX rho(problem.n_contacts());
   for (int i = 0; i < rho.size(); ++i) {
     const Mat3 W_ii = problem.W.block<3, 3>(3 * i, 3 * i);
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(0.5 * (W_ii + W_ii.transpose()),
-                                                    Eigen::EigenvaluesOnly);
-    const double largest = eigen.eigenvalues()[2];
+    const double largest = principal_values(Mat3(0.5 * (W_ii + W_ii.transpose())))[2];
     rho[i] = 1;
     if (largest > 0) rho[i] = 1.5 / largest;
   }

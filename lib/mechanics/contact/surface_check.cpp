@@ -1,6 +1,5 @@
 #include "mechanics/contact/surface_check.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "core/tensor/principal.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/reference.hpp"
 #include "mechanics/mesh/section.hpp"
@@ -40,7 +40,7 @@ std::vector<std::array<int, 4>> edge_pieces(const std::vector<int>& n) {
 
 // The smallest radius of curvature of the surface itself below a point.
 double radius_of(const ShapePoint& p) {
-  const double curvature = p.curvature.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  const double curvature = principal_values(p.curvature)[2];
   if (curvature > 0) return std::max(0.0, 1 / curvature - p.gap);
   return std::numeric_limits<double>::infinity();
 }

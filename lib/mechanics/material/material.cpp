@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <string>
 
 #include "core/base/traps.hpp"
 #include "core/tensor/invariants.hpp"
 #include "core/tensor/kinematics.hpp"
+#include "core/tensor/principal.hpp"
 #include "mechanics/material/terms.hpp"
 #include "mechanics/material/viscous_point.hpp"
 #include "mechanics/mesh/directions.hpp"
@@ -127,9 +127,9 @@ struct StretchTerms {
 
 StretchTerms stretch_terms(const Ogden& law, const Invariants& v, bool with_tangent) {
   StretchTerms s;
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(tensor(v.m * v.C));
-  const Vec3& e = eigen.eigenvalues();
-  const Mat3& n = eigen.eigenvectors();
+  const Principal stretched = principal(tensor(v.m * v.C));
+  const Vec3& e = stretched.values;
+  const Mat3& n = stretched.directions;
   Mat6 H = Mat6::Zero();
   for (int a = 0; a < 3; ++a) {
     const Energy<double> g = law(e[a]);

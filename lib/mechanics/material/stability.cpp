@@ -1,12 +1,12 @@
 #include "mechanics/material/stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/in_order.hpp"
 #include "core/base/no_number.hpp"
 #include "core/base/random.hpp"
+#include "core/tensor/principal.hpp"
 #include "mechanics/material/ellipticity.hpp"
 
 namespace langer {
@@ -70,9 +70,9 @@ bool is_lost(double value) { return std::isless(value, 0); }
 bool is_no_number(double value) { return !std::isfinite(value); }
 
 // the state ln U = r h
-Mat3 state_at(const Eigen::SelfAdjointEigenSolver<Mat3>& h, double r) {
-  const Vec3 stretch = (r * h.eigenvalues()).array().exp();
-  return h.eigenvectors() * stretch.asDiagonal() * h.eigenvectors().transpose();
+Mat3 state_at(const Principal& h, double r) {
+  const Vec3 stretch = (r * h.values).array().exp();
+  return h.directions * stretch.asDiagonal() * h.directions.transpose();
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ HenckyReach hencky_reach(const Material& material, double most) {
         for (int q = 0; q <= p; ++q)
           h(p, q) = h(q, p) = random.normal() * (p == q ? 1 : std::sqrt(0.5));
     h.diagonal().array() -= h.trace() / 3;
-    const Eigen::SelfAdjointEigenSolver<Mat3> direction(Mat3(h / h.norm()));
+    const Principal direction = principal(Mat3(h / h.norm()));
     for (double r = step; r - step < std::min(reach.safe, most); r += step) {
       const double here = std::min({r, reach.safe, most});
       const double value = stiffness(direction, here);

@@ -1,6 +1,5 @@
 #include "mechanics/material/states.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "core/tensor/kinematics.hpp"
+#include "core/tensor/principal.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/material/existence.hpp"
 #include "mechanics/mesh/directions.hpp"
@@ -15,9 +15,6 @@
 namespace langer {
 
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Mat2 = Eigen::Matrix2d;
 
 Mat3 gradient(double lambda_x, double lambda_z, double g) {
   Mat3 F = Mat3::Zero();
@@ -88,15 +85,15 @@ struct Sheet {
 // Newton's step with the absolute values of the eigenvalues of W'': it leads downhill also where W
 // is not convex. Each component is at most a fifth.
 Vec2 step(const Sample& s) {
-  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.curvature);
-  const Vec2 along = eigen.eigenvectors().transpose() * s.slope;
-  const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
+  const PlanePrincipal eigen = principal(s.curvature);
+  const Vec2 along = eigen.directions.transpose() * s.slope;
+  const Vec2 curvature = eigen.values.cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
   for (int i = 0; i < 2; ++i) {
     d[i] = 0;
     if (along[i] != 0) d[i] = -along[i] / curvature[i];
   }
-  return eigen.eigenvectors() * d;
+  return eigen.directions * d;
 }
 
 bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {

@@ -1,18 +1,15 @@
 #include "mechanics/material/uniaxial.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/tensor/principal.hpp"
 #include "mechanics/material/existence.hpp"
 
 namespace langer {
 
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Mat2 = Eigen::Matrix2d;
 
 // Energy at ln lambda = (x, y, z), y = ln J - x - z, with derivatives in (ln J, z); tau is the
 // Kirchhoff stress.
@@ -70,9 +67,9 @@ bool small(const Vec2& g, const Vec2& scale, double relative) {
 // Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of
 // the stretches by a fifth
 Vec2 step(const Pulled& s) {
-  Eigen::SelfAdjointEigenSolver<Mat2> eigen(s.H);
-  const Vec2 along = eigen.eigenvectors().transpose() * s.g;
-  const Vec2 curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(5 * along.cwiseAbs());
+  const PlanePrincipal eigen = principal(s.H);
+  const Vec2 along = eigen.directions.transpose() * s.g;
+  const Vec2 curvature = eigen.values.cwiseAbs().cwiseMax(5 * along.cwiseAbs());
   Vec2 d;
   for (int i = 0; i < 2; ++i) {
     if (along[i] == 0) {
@@ -81,7 +78,7 @@ Vec2 step(const Pulled& s) {
       d[i] = -along[i] / curvature[i];
     }
   }
-  return eigen.eigenvectors() * d;
+  return eigen.directions * d;
 }
 
 Uniaxial state(const Material& material, double lambda, bool incompressible) {

@@ -1,11 +1,11 @@
 #include "mechanics/solve/critical_modes.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
+#include "core/tensor/dense.hpp"
 #include "mechanics/linear/linear.hpp"
 
 namespace langer {
@@ -40,7 +40,7 @@ std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<do
     F.col(j) = held[static_cast<std::size_t>(j)];
     B.col(j) = solver.solve(F.col(j));
   }
-  Eigen::PartialPivLU<MatX> C;
+  Lu C;
   if (m > 0) C.compute(F.transpose() * B);
   const auto inverse = [&](const VecX& x) -> VecX {
     VecX y = solver.solve(x);
@@ -65,8 +65,8 @@ std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<do
     if (!Y.allFinite()) return {};
     MatX T = X.transpose() * Y;
     T = (0.5 * (T + T.transpose())).eval();
-    const Eigen::SelfAdjointEigenSolver<MatX> small(T);
-    of_inverse = small.eigenvalues();
+    const SymmetricEigen small = symmetric_eigen(T);
+    of_inverse = small.values;
     std::iota(order.begin(), order.end(), Eigen::Index(0));
     std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
       return std::abs(of_inverse[a]) > std::abs(of_inverse[b]);
@@ -75,7 +75,7 @@ std::vector<SoftMode> softest_modes(const Pattern& pattern, const std::vector<do
     VecX values(size);
     for (Eigen::Index c = 0; c < size; ++c) {
       const Eigen::Index from = order[static_cast<std::size_t>(c)];
-      next.col(c) = Y * small.eigenvectors().col(from);
+      next.col(c) = Y * small.vectors.col(from);
       values[c] = of_inverse[from];
     }
     orthonormalize(next);

@@ -68,7 +68,7 @@ MatX left_of(const NodeContact& contact, const bool* is_free) {
 Signature signs(const MatX& M, bool zero_energy_too) {
   constexpr int largest = 1500;  // rows of a dense eigenvalue problem that is still affordable
   if (M.rows() == 0) return {};
-  if (positive_definite(M) && (!zero_energy_too || M.rows() > largest)) return {};
+  if (Cholesky(M).positive_definite() && (!zero_energy_too || M.rows() > largest)) return {};
   const VecX e = symmetric_eigenvalues(M);
   const double small = 1e-8 * e.cwiseAbs().maxCoeff();
   return {static_cast<int>((e.array() < -small).count()),

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "core/config/formula.hpp"
 #include "core/hdf5/h5.hpp"
 #include "core/hdf5/unit_attribute.hpp"
+#include "core/tensor/principal.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/reference.hpp"
 
@@ -127,10 +127,9 @@ Vec3 direction_at(const MeasuredDirections& points, const Vec3& x, Between metho
   for (std::size_t i = 0; i < points.x.size(); ++i)
     sum +=
         std::pow(least / (points.x[i] - x).norm(), power) * points.a[i] * points.a[i].transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(sum);
-  if (axes.eigenvalues()[2] - axes.eigenvalues()[1] <= 1e-9 * axes.eigenvalues()[2])
-    return Vec3::Zero();
-  return axes.eigenvectors().col(2);
+  const Principal axes = principal(sum);
+  if (axes.values[2] - axes.values[1] <= 1e-9 * axes.values[2]) return Vec3::Zero();
+  return axes.directions.col(2);
 }
 
 FirstFamily first_family(const FibreField& field, const Mesh& mesh, std::span<const int> cells,
