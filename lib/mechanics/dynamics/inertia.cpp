@@ -178,6 +178,8 @@ void Inertia::begin(const VecX& u, double travel, const MotionState& motion, dou
   for (std::size_t i = 0; i < C_values_.size(); ++i) tangent_[i] += v_u_ * C_values_[i];
 }
 
+double Inertia::force_scale() const { return (mass_.M * acceleration_).norm(); }
+
 VecX Inertia::predicted() const {
   const double h = conserves() ? 0.5 * h_ : h_;
   VecX du = VecX::Zero(u0_.size());

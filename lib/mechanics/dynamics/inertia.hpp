@@ -116,7 +116,7 @@ class Inertia : public AddedTerm {
   // the speed that belongs to `energy` [ZX91].
   double error(const MotionState& after, double energy) const;
   // Size of M a [N].
-  double force_scale() const { return (mass_.M * acceleration_).norm(); }
+  double force_scale() const;
 
  private:
   VecX acceleration_at(const VecX& u) const;

@@ -69,4 +69,9 @@ ElementGeometry element_geometry(const ElementNodes& X) {
   return geometry;
 }
 
+// Flattened: as a call to a product of Eigen it takes twice as long.
+[[gnu::flatten]] Mat3 displacement_gradient(const ElementNodes& u, const Gradients& dN_dX) {
+  return u.transpose().lazyProduct(dN_dX);
+}
+
 }  // namespace langer

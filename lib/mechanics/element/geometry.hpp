@@ -35,8 +35,6 @@ ElementNodes element_values(const Mesh& mesh, int e,
 ElementGeometry element_geometry(const ElementNodes& X);
 
 // du/dX (3,3)
-inline Mat3 displacement_gradient(const ElementNodes& u, const Gradients& dN_dX) {
-  return u.transpose().lazyProduct(dN_dX);
-}
+Mat3 displacement_gradient(const ElementNodes& u, const Gradients& dN_dX);
 
 }  // namespace langer
