@@ -117,6 +117,14 @@ TEST_CASE("no axis mixes 0.0001 with a power of ten, wherever it begins and ends
   }
 }
 
+TEST_CASE("small numbers along x have a factor: written out they would touch each other") {
+  if (!has_gnuplot()) return;
+  const Figure f = drawn({0, 1.8e-3}, {0, 1.8e-3});
+  INFO(f.svg);
+  for (const char* text : {"travel of it (10-3 100% mm)", "1.8", "energy (N mm)", "0.0018"})
+    CHECK(has(f, text));
+}
+
 TEST_CASE("all other axes are what gnuplot makes of them") {
   if (!has_gnuplot()) return;
   for (const Ends& ends : {Ends{0, 5},

@@ -200,8 +200,9 @@ std::string with_factor(const std::string& label, bool is_unit) {
 }
 
 // Commands that give an axis a common factor. On one axis gnuplot would otherwise write 0.0001 next
-// to 5×10^{-5}, or 800000 next to 10^6. It knows the ends of an axis only after a plot, so the plot
-// is first drawn to /dev/null. Axes without such numbers stay as gnuplot makes them.
+// to 5×10^{-5}, or 800000 next to 10^6, and 0.0002, 0.0004, ... along x leave no gaps. It knows the
+// ends of an axis only after a plot, so the plot is first drawn to /dev/null. Axes without such
+// numbers stay as gnuplot makes them.
 std::string factor_commands(const Plot& plot, const std::string& draw) {
   const bool x =
       plot.x_step == 0 && (plot.scale == AxisScale::linear || plot.scale == AxisScale::log_y);
@@ -213,6 +214,7 @@ std::string factor_commands(const Plot& plot, const std::string& draw) {
   s += "set terminal dumb\nset output '/dev/null'\n" + draw + "\n";
   s += "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > "
        "-1e-4))\n";
+  s += "long(a, b) = a < b && b < 5e-3 && a > -5e-3\n";
   s += "step(r, p) = p * (r < 1.01 * p ? 0.1 : r < 2.01 * p ? 0.2 : r < 4.99 * p ? 0.5 : 1)\n";
   for (const char axis : {'x', 'y'}) {
     const bool is_x = axis == 'x';
@@ -226,7 +228,7 @@ std::string factor_commands(const Plot& plot, const std::string& draw) {
     }
     s += fmt::format(
         "a = GPVAL_{0}_MIN; b = GPVAL_{0}_MAX\n"
-        "if (mixed(a, b)) {{\n"
+        "if (mixed(a, b){3}) {{\n"
         "  e = floor(log10(b > -a ? b : -a) + 1e-9)\n"
         "  s = step(b - a, 10**floor(log10(b - a) + 1e-9))\n"
         "  set {1}range [a:b]\n"
@@ -235,7 +237,7 @@ std::string factor_commands(const Plot& plot, const std::string& draw) {
         "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add "
         "(gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
         "}}\n",
-        static_cast<char>(axis - 'x' + 'X'), axis, label);
+        static_cast<char>(axis - 'x' + 'X'), axis, label, is_x ? " || long(a, b)" : "");
   }
   return s;
 }
