@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "arguments.hpp"
+#include "core/base/lower_case.hpp"
 #include "core/base/memory.hpp"
 #include "core/base/ranks.hpp"
 #include "core/base/stopwatch.hpp"
@@ -80,6 +82,27 @@ void print_dry_run(const StageSpec& spec, const std::vector<ConfigPart>& parts,
   line("makes", text_or(output, spec.output));
 }
 
+// Refuses an output whose name says that it is a table or a figure. A table of that name may be
+// written next to it, and programs that choose by the name could not open it.
+void require_name_of_kind(const std::string& output, const StageSpec& spec) {
+  static const std::set<std::string> others{".csv", ".gp",   ".png",  ".svg", ".pdf",
+                                            ".tex", ".xdmf", ".xmf",  ".vtu", ".yaml",
+                                            ".yml", ".json", ".html", ".txt", ".h5"};
+  const std::filesystem::path path(output);
+  const std::string kind = std::filesystem::path(spec.output).extension().string();
+  const std::string given = lower_case(path.extension().string());
+  if (given == kind || others.count(given) == 0) return;
+  std::filesystem::path named = path;
+  named.replace_extension(kind);
+  throw Failure(Exit::input, Error{{output},
+                                   "",
+                                   fmt::format("found {} for the main output, which is {}", given,
+                                               kind == ".h5" ? "HDF5" : "a page of HTML"),
+                                   "a name that ends in " + kind,
+                                   fmt::format("-o {}; tables and figures are written next to it",
+                                               named.string())});
+}
+
 // Options of a stage's command line that are not part of its task.
 struct CommandLine {
   std::string config_file, log;
@@ -125,6 +148,7 @@ ReadConfig read_task(Task& task, const StageSpec& spec, const CommandLine& given
   task.where = config.where;
   if (!task.dry_run)
     on_root_rank([&] { check_output(task.output, given.config_file, task.inputs); });
+  require_name_of_kind(task.output, spec);
   task.identity =
       identity_of(std::string(spec.name), config.text, task.where, task.inputs, command);
   for (const std::string& notice : config.notices) task.warn("{}", notice);

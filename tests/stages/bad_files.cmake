@@ -81,6 +81,13 @@ expect_said("the output is a folder")
 run(3 ${BIN}/langer-fit fit/fit.yaml -o fit/fit.yaml)
 expect_said("the output would replace an input")
 run(3 ${BIN}/langer-fit fit/fit.yaml -o text.h5/material.h5)
+# a table of this name would be written in its place
+run(3 ${BIN}/langer-fit fit/fit.yaml -o parameters.CSV)
+expect_said("found .csv for the main output, which is HDF5")
+expect_said("-o parameters.h5; tables and figures are written next to it")
+if(EXISTS ${folder}/parameters.CSV)
+  message(FATAL_ERROR "an output was written under the name of a table")
+endif()
 
 sums(after)
 expect_equal("${after}" "${before}" "results after all this")
