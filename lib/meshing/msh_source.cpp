@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/text.hpp"
+#include "core/base/traps.hpp"
 
 namespace langer {
 
@@ -204,9 +205,10 @@ double MshSource::number(const char* what) {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_whole = end == digits.data() + digits.size();
-  if (error == std::errc::result_out_of_range && is_whole)
+  if (error == std::errc::result_out_of_range && is_whole) {
+    const NoTraps may_overflow;
     value = std::strtod(std::string(digits).c_str(), nullptr);  // 1e-400 is 0, 1e400 is refused
-  else if (error != std::errc{} || !is_whole)
+  } else if (error != std::errc{} || !is_whole)
     refuse(fmt::format("found \"{}\" for {}", shown(text), what), "a number");
   if (!std::isfinite(value))
     refuse(fmt::format("found \"{}\" for {}", shown(text), what), "a finite number");

@@ -342,7 +342,7 @@ KnownError known_error(const std::vector<Summary>& summary, const std::string& n
 // Two digits of the error if it begins with 1, otherwise one.
 std::string rounded(double value, double percent) {
   const double error = 0.01 * percent * std::abs(value);
-  if (!(error > 0) || !std::isfinite(error)) return fmt::format("{:.4g}", value);
+  if (!std::isgreater(error, 0) || !std::isfinite(error)) return fmt::format("{:.4g}", value);
   const int power = static_cast<int>(std::floor(std::log10(error)));
   const bool begins_with_1 = error < 2 * std::pow(10.0, power);
   int last = power;  // of the last digit shown

@@ -9,6 +9,7 @@
 #include "core/base/in_order.hpp"
 #include "core/base/quantile.hpp"
 #include "core/base/random.hpp"
+#include "core/base/traps.hpp"
 #include "core/tensor/dense.hpp"
 #include "identification/fit/periodic.hpp"
 #include "identification/posterior/nuts.hpp"
@@ -26,6 +27,7 @@ struct Free {
   bool below = false, above = false;  // which bounds there are
 
   double number(double x) const {
+    const NoTraps may_be_infinite;
     if (below && above) return lower + (upper - lower) / (1 + std::exp(-x));
     if (below) return lower + std::exp(x);
     if (above) return upper - std::exp(-x);
@@ -33,8 +35,8 @@ struct Free {
   }
   double slope(double x) const {
     if (below && above) {
-      const double share = 1 / (1 + std::exp(-x));
-      return (upper - lower) * share * (1 - share);
+      const double e = std::exp(-std::abs(x));
+      return (upper - lower) * e / ((1 + e) * (1 + e));
     }
     if (below) return std::exp(x);
     if (above) return std::exp(-x);
@@ -42,7 +44,7 @@ struct Free {
   }
   // d ln slope / dx
   double curvature(double x) const {
-    if (below && above) return 1 - 2 / (1 + std::exp(-x));
+    if (below && above) return -std::tanh(0.5 * x);
     if (below) return 1;
     if (above) return -1;
     return 0;
@@ -117,8 +119,11 @@ class FitDensity {
     gradient = factor * (J.transpose() * u);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const Free& one = free_[static_cast<std::size_t>(i)];
-      gradient[i] = gradient[i] * one.slope(x[i]) + one.curvature(x[i]);
-      value += std::log(one.slope(x[i]));
+      const double slope = one.slope(x[i]);
+      // so far out that the parameter is at its bound to the last digit
+      if (!(slope > 0)) return -std::numeric_limits<double>::infinity();
+      gradient[i] = gradient[i] * slope + one.curvature(x[i]);
+      value += std::log(slope);
     }
     return value;
   }

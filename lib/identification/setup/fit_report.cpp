@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/traps.hpp"
 #include "identification/fit/stiffness_at_rest.hpp"
 #include "identification/statistics/intervals.hpp"
 #include "identification/statistics/within_bounds.hpp"
@@ -25,6 +26,7 @@ void set_intervals(const FitResult& fit, FitRecord& record) {
   for (std::size_t i = 0; i < record.parameters.size(); ++i) {
     FittedParameter& p = record.parameters[i];
     const auto k = static_cast<Eigen::Index>(i);
+    const NoTraps without_information_no_number;
     const double half = p.factor * factors[k] * std::sqrt(white(k, k));
     if (p.standard_error > 0 && std::isfinite(half)) p.factor = half / p.standard_error;
   }

@@ -11,6 +11,7 @@
 //              of the finest mesh is used.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ Limit richardson(double coarse, double middle, double fine, double ratio);
 
 // The error, or the uncertainty of the reference if the error is smaller. NaN stays NaN.
 inline double known_error(double error, double uncertainty) {
-  if (error < uncertainty) return uncertainty;
+  if (std::isless(error, uncertainty)) return uncertainty;
   return error;
 }
 
