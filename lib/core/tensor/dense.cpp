@@ -9,7 +9,10 @@
 namespace langer {
 
 void Lu::compute(const MatX& A) { lu_.compute(A); }
-VecX Lu::solve(const VecX& b) const { return lu_.solve(b); }
+VecX Lu::solve(const VecX& b) const {
+  const NoTraps a_pivot_may_be_zero;
+  return lu_.solve(b);
+}
 MatX Lu::solve_columns(const MatX& B) const { return lu_.solve(B); }
 MatX Lu::solve_transposed(const MatX& B) const { return lu_.transpose().solve(B); }
 
