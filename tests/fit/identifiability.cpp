@@ -12,14 +12,12 @@
 #include "identification/fit/fit.hpp"
 #include "material/catalogue.hpp"
 #include "support/near.hpp"
+#include "support/vec.hpp"
 
 using namespace langer;
+using test::vec;
 
 namespace {
-
-VecX vec(std::initializer_list<double> x) {
-  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
-}
 
 // y = p0 + p1 x at x = 0 .. 9
 LeastSquares line(const VecX& y, double lower = -100, double upper = 100) {

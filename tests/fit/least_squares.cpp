@@ -10,18 +10,16 @@
 #include "core/tensor/dense.hpp"
 #include "identification/fit/bounded_linear.hpp"
 #include "support/near.hpp"
+#include "support/vec.hpp"
 
 using namespace langer;
+using test::vec;
 
 namespace least_squares_tests {
 
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-
-VecX vec(std::initializer_list<double> x) {
-  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
-}
 
 // y = p0 exp(p1 x)
 struct Exponential {

@@ -8,16 +8,12 @@
 #include "material/catalogue.hpp"
 #include "mechanics/material/uniaxial.hpp"
 #include "support/near.hpp"
+#include "support/vec.hpp"
 
 using namespace langer;
+using test::vec;
 
-namespace {
-
-VecX vec(std::initializer_list<double> x) {
-  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a linear model has its slopes as effects and no spread, s is twice a negative slope") {
   const auto phi = [](const VecX& p, VecX& y) {

@@ -8,16 +8,12 @@
 #include "identification/sensitivity/morris.hpp"
 #include "identification/sensitivity/sobol.hpp"
 #include "support/near.hpp"
+#include "support/vec.hpp"
 
 using namespace langer;
-
-namespace sampling_tests {
+using test::vec;
 
 namespace {
-
-VecX vec(std::initializer_list<double> x) {
-  return Eigen::Map<const VecX>(x.begin(), static_cast<Eigen::Index>(x.size()));
-}
 
 CurveMaker same(ParametricCurve phi) {
   return [phi] {
@@ -255,5 +251,3 @@ TEST_CASE(
   CHECK(std::is_sorted(told.begin(), told.end()));
   CHECK(told.back() == 1);
 }
-
-}  // namespace sampling_tests

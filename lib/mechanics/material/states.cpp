@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/tensor/kinematics.hpp"
-#include "core/tensor/principal.hpp"
 #include "core/tensor/stress.hpp"
+#include "mechanics/material/downhill_step.hpp"
 #include "mechanics/material/existence.hpp"
 #include "mechanics/mesh/directions.hpp"
 
@@ -82,20 +82,6 @@ struct Sheet {
   }
 };
 
-// Newton's step with the absolute values of the eigenvalues of W'': it leads downhill also where W
-// is not convex. Each component is at most a fifth.
-Vec2 step(const Sample& s) {
-  const PlanePrincipal eigen = principal(s.curvature);
-  const Vec2 along = eigen.directions.transpose() * s.slope;
-  const Vec2 curvature = eigen.values.cwiseAbs().cwiseMax(5 * along.cwiseAbs());
-  Vec2 d;
-  for (int i = 0; i < 2; ++i) {
-    d[i] = 0;
-    if (along[i] != 0) d[i] = -along[i] / curvature[i];
-  }
-  return eigen.directions * d;
-}
-
 bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
   constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps,
@@ -109,7 +95,7 @@ bool solve(const Sheet& sheet, Vec2& q, Vec6& S, double& W) {
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !(steepness(*s) <= enough);
        ++iteration) {
-    Vec2 d = step(*s);
+    Vec2 d = downhill_step(s->slope, s->curvature);
     downhill = false;
     for (int halving = 0; halving < 40 && !downhill; ++halving, d /= 2) {
       const auto next = sheet.at(q + d);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/tensor/principal.hpp"
+#include "mechanics/material/downhill_step.hpp"
 #include "mechanics/material/existence.hpp"
 
 namespace langer {
@@ -64,23 +64,6 @@ bool small(const Vec2& g, const Vec2& scale, double relative) {
   return (g.cwiseAbs().array() <= relative * scale.array()).all();
 }
 
-// Newton's step on |H|, which is downhill also where W is not convex, no longer than a change of
-// the stretches by a fifth
-Vec2 step(const Pulled& s) {
-  const PlanePrincipal eigen = principal(s.H);
-  const Vec2 along = eigen.directions.transpose() * s.g;
-  const Vec2 curvature = eigen.values.cwiseAbs().cwiseMax(5 * along.cwiseAbs());
-  Vec2 d;
-  for (int i = 0; i < 2; ++i) {
-    if (along[i] == 0) {
-      d[i] = 0;
-    } else {
-      d[i] = -along[i] / curvature[i];
-    }
-  }
-  return eigen.directions * d;
-}
-
 Uniaxial state(const Material& material, double lambda, bool incompressible) {
   // rounding in the energy terms leaves a few eps; a steep exponential leaves c2 x^2 times more
   constexpr double eps = std::numeric_limits<double>::epsilon(), enough = 64 * eps,
@@ -95,7 +78,7 @@ Uniaxial state(const Material& material, double lambda, bool incompressible) {
   bool downhill = true;
   for (int iteration = 0; s && downhill && iteration < 100 && !small(s->g, s->scale, enough);
        ++iteration) {
-    Vec2 d = step(*s);
+    Vec2 d = downhill_step(s->g, s->H);
     downhill = false;
     for (int halving = 0; halving < 40 && !downhill; ++halving, d /= 2) {
       const auto next = pull.at(ln_J + d[0], z + d[1]);
