@@ -92,15 +92,17 @@ void require_name_of_kind(const std::string& output, const StageSpec& spec) {
   const std::string kind = std::filesystem::path(spec.output).extension().string();
   const std::string given = lower_case(path.extension().string());
   if (given == kind || others.count(given) == 0) return;
+  std::string format = "HDF5";
+  if (kind == ".html") format = "a page of HTML";
   std::filesystem::path named = path;
   named.replace_extension(kind);
-  throw Failure(Exit::input, Error{{output},
-                                   "",
-                                   fmt::format("found {} for the main output, which is {}", given,
-                                               kind == ".h5" ? "HDF5" : "a page of HTML"),
-                                   "a name that ends in " + kind,
-                                   fmt::format("-o {}; tables and figures are written next to it",
-                                               named.string())});
+  throw Failure(
+      Exit::input,
+      Error{{output},
+            "",
+            fmt::format("found {} for the main output, which is {}", given, format),
+            "a name that ends in " + kind,
+            fmt::format("-o {}; tables and figures are written next to it", named.string())});
 }
 
 // Options of a stage's command line that are not part of its task.

@@ -4,8 +4,7 @@
 
 namespace langer {
 
-// T maps components of a symmetric reference tensor A to those of F A F^T; D has engineering
-// strains on both sides.
+// T maps components of a symmetric reference tensor A to those of F A F^T.
 Mat6 push_forward(const Mat3& F, const Mat6& D, double J) {
   Mat6 T;
   for (int p = 0; p < 6; ++p) {

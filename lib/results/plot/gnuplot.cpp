@@ -214,21 +214,23 @@ std::string factor_commands(const Plot& plot, const std::string& draw) {
   s += "set terminal dumb\nset output '/dev/null'\n" + draw + "\n";
   s += "mixed(a, b) = a < b && (a <= -1e6 || b >= 1e6 || (b - a < 5.6e-4 && a < 1e-4 && b > "
        "-1e-4))\n";
-  s += "long(a, b) = a < b && b < 5e-3 && a > -5e-3\n";
+  s += "crowded(a, b) = a < b && b < 5e-3 && a > -5e-3\n";
   s += "step(r, p) = p * (r < 1.01 * p ? 0.1 : r < 2.01 * p ? 0.2 : r < 4.99 * p ? 0.5 : 1)\n";
   for (const char axis : {'x', 'y'}) {
     const bool is_x = axis == 'x';
     if (is_x && !x) continue;
     if (!is_x && !y) continue;
     std::string label;
+    std::string condition = "mixed(a, b)";
     if (is_x) {
+      condition += " || crowded(a, b)";
       label = with_factor(plot.x_label, false);
     } else {
       label = with_factor(plot.y_label, plot.y_label_is_unit);
     }
     s += fmt::format(
         "a = GPVAL_{0}_MIN; b = GPVAL_{0}_MAX\n"
-        "if (mixed(a, b){3}) {{\n"
+        "if ({3}) {{\n"
         "  e = floor(log10(b > -a ? b : -a) + 1e-9)\n"
         "  s = step(b - a, 10**floor(log10(b - a) + 1e-9))\n"
         "  set {1}range [a:b]\n"
@@ -237,7 +239,7 @@ std::string factor_commands(const Plot& plot, const std::string& draw) {
         "  do for [k = ceil(a / s - 1e-6) : floor(b / s + 1e-6)] {{ set {1}tics add "
         "(gprintf('%.8g', k * s / 10.0**e) k * s) }}\n"
         "}}\n",
-        static_cast<char>(axis - 'x' + 'X'), axis, label, is_x ? " || long(a, b)" : "");
+        static_cast<char>(axis - 'x' + 'X'), axis, label, condition);
   }
   return s;
 }
