@@ -11,7 +11,7 @@
 using namespace langer;
 
 void measure_instabilities() {
-  constexpr int members = 21;
+  constexpr int members = 120;
   constexpr unsigned seed = 20261128;
   test::InstabilityDraw draw(seed);
   int contain = 0;

@@ -10,7 +10,7 @@ supports: [{on: x_max, hold: [x, y]}]
 loads: [{on: top, pressure: 2.0e-4}]
 material: {matrix: {neo_hooke: {a1: 0.1666666667}}, volume: {quadratic: {d: 1.0e-2}}}
 ")
-run(4 ${BIN}/langer-solve cap.yaml -o cap.h5 --json --quiet)
+run(4 ${BIN}/langer-solve cap.yaml -o cap.h5 --json --quiet --set on_unstable=stop)
 expect_said("\"exit_code\": 4")
 expect_said("\"critical_t\": 0.")
 expect_said("\"critical_kind\": \"limit point of load\"")

@@ -130,7 +130,8 @@ RunEnd Recording::along_the_path(Progress& progress) {
   };
   listener.of_whole = [&](StepRecord& record, const SolveReport& report) {
     if (auto refused = watch_.of_whole(record, report)) {
-      refused->hint += fmt::format("; kept: the {} steps before in {}.part", n_steps(), output_);
+      refused->hint += fmt::format("; kept: the {} step{} before in {}.part", n_steps(),
+                                   plural_s(n_steps()), output_);
       throw Failure(Exit::not_converged, *refused);
     }
     {
@@ -155,8 +156,8 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   };
   if (end.at == RunEnd::At::listener)
     fail(Exit::not_converged, watch_.unstable(), "a stable state (on_unstable: stop)",
-         fmt::format("kept: the {} steps before in {}.part; on_unstable: warn continues", n_steps(),
-                     output_));
+         fmt::format("kept: the {} step{} before in {}.part; on_unstable: warn continues",
+                     n_steps(), plural_s(n_steps()), output_));
   if (end.at == RunEnd::At::signal)
     fail(exit_code_of(interrupted()),
          fmt::format("stopped by {} at t = {:.6g} after {} steps", signal_name(interrupted()),

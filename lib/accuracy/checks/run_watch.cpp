@@ -54,29 +54,42 @@ bool RunWatch::follows_states() const {
          run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
 }
 
-// Under dead loads an increment may pass a limit point: Newton's method then finds a distant state,
-// which may well be stable. It shows in a movement much faster than before, found through tangents
-// that were not positive definite.
+// An increment may pass a limit point: Newton's method then finds a distant state, which may well
+// be stable. It shows in a movement much faster than before. Where all tangents of its iterations
+// were positive definite it takes more to suspect a jump, as most bodies soften or stiffen on their
+// way. Contact that opens or closes and a kink of a given history change the rate by themselves.
 void RunWatch::take_jump(const StateOnPath& state, bool doubtful) {
-  constexpr double faster = 1.5;  // a longer search decides
-  const bool dead_loads = run_.scene.contacts.empty() && !run_.scene.loads.empty();
-  if (jump_ || !doubtful || !dead_loads || run_.path.arc_length) return;
-  if (!before_ || !(before_->t < last_->t)) return;
-  const auto rate = [](const StateOnPath& a, const StateOnPath& b) {
-    return (b.state.u - a.state.u).norm() / (b.t - a.t);
+  constexpr std::size_t most = 4;  // suspects kept: those whose movement grew most
+  if (!run_.scene.contacts.empty() || run_.path.arc_length) return;
+  const bool first_increment = !(before_->t < last_->t);
+  double faster = INFINITY;
+  if (first_increment) {
+    if (!doubtful) return;
+  } else {
+    const auto rate = [](const StateOnPath& a, const StateOnPath& b) {
+      return (b.state.u - a.state.u).norm() / (b.t - a.t);
+    };
+    faster = rate(*last_, state) / rate(*before_, *last_);
+    const bool kink = kink_between(before_->t, state.t);
+    const double suspect = doubtful ? 1.5 : 3.0;
+    if (!(faster > suspect) || (kink && !doubtful)) return;
+  }
+  suspects_.push_back({Crossing{*before_, *last_, state}, faster});
+  if (suspects_.size() <= most) return;
+  const auto slower = [](const Suspect& a, const Suspect& b) {
+    return a.faster < b.faster;
   };
-  if (rate(*last_, state) > faster * rate(*before_, *last_))
-    jump_ = Crossing{*before_, *last_, state};
+  suspects_.erase(std::min_element(suspects_.begin(), suspects_.end(), slower));
 }
 
 // doubtful: tangents of the increment were not positive definite, or nothing is known of them
 void RunWatch::take_state(StateOnPath state, bool doubtful) {
   if (crossing_) return;
-  if (last_) take_jump(state, doubtful);
   if (!last_) {
     last_ = StateOnPath{0, at_rest(state.state), 0};
     before_ = last_;
   }
+  take_jump(state, doubtful);
   if (state.negative > last_->negative) {
     crossing_ = Crossing{*before_, *last_, std::move(state)};
     return;
@@ -200,19 +213,25 @@ void RunWatch::locate(const RunEnd& end, bool only_contact) {
   if (only_contact) critical_ = support_lost(end);
   if (critical_) return;
   locate_bifurcation(end);
-  if (jump_ && (!critical_ || jump_->first.t < critical_->t)) {
-    const auto point = locate_jump(run_, jump_->before, jump_->first, jump_->last);
-    if (point) {
-      critical_ = point;
-    } else {
-      jump_.reset();
-    }
-  }
+  search_jump();
   // Verdicts that need no search are known to an increment, which a point in the same one beats.
   for (const auto& lost : {material_lost_, surface_lost_, stability_lost_}) {
     const bool first = lost && (!critical_ || lost->t < critical_->t);
     if (first && !(lost->kind == "loss of stability" && !turnings_.empty())) critical_ = lost;
   }
+}
+
+// The first suspect that is a jump, unless an earlier critical point is known.
+void RunWatch::search_jump() {
+  for (const auto& [states, faster] : suspects_) {
+    if (critical_ && critical_->t <= states.first.t) break;
+    const auto point = locate_jump(run_, states.before, states.first, states.last);
+    if (!point) continue;
+    critical_ = point;
+    jump_ = states;
+    break;
+  }
+  suspects_.clear();
 }
 
 void RunWatch::locate_bifurcation(const RunEnd& end) {
@@ -297,13 +316,16 @@ bool RunWatch::of_part(StepRecord& record) {
     n_indefinite_ = run_.statics.n_indefinite();
     take_state({record.t, run_.statics.accepted(), negative}, doubtful);
   }
+  if (on_unstable_ == OnUnstable::stop && !critical_) search_jump();
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
   take_surface(record, run_.statics.accepted());
   take_losses(record);
   take_support(record);
   last_said_ = in_words(*report);
-  if (last_said_.empty() || on_unstable_ != OnUnstable::stop) return true;
+  if (on_unstable_ != OnUnstable::stop) return true;
+  if (jump_) last_said_ = "reached by a jump past a limit point";
+  if (last_said_.empty()) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
   return false;
 }

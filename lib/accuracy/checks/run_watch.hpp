@@ -74,6 +74,7 @@ class RunWatch {
   void take_surface(const StepRecord& record, const BodyState& state);
   void take_support(const StepRecord& record);
   void locate_bifurcation(const RunEnd& end);
+  void search_jump();
   std::optional<CriticalPoint> support_lost(const RunEnd& end) const;
 
   Run& run_;
@@ -93,8 +94,15 @@ class RunWatch {
   struct Crossing {
     StateOnPath before, first, last;
   };
+  struct Suspect {
+    Crossing states;
+    double faster = 0;  // rate of the movement, relative to that of the increment before
+  };
   std::optional<Crossing> crossing_;
-  std::optional<Crossing> jump_;  // three states, of which the last is far from the others
+  // Three states, of which the last is far from the others: near a limit point the movement grows
+  // without a jump, so the first suspect need not be the jump.
+  std::vector<Suspect> suspects_;
+  std::optional<Crossing> jump_;  // that of the suspects which the search has confirmed
   int n_indefinite_ = 0;          // tangents of iterations up to the last state
   std::optional<CriticalPoint> critical_;
   // A load that is a result has an extremum: a limit point of it.
