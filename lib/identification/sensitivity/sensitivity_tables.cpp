@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "results/store/curves_file.hpp"
 
@@ -127,8 +128,14 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
     for (std::size_t j : order) words.push_back(r.parameters[j].name + " " + text(j));
     return fmt::format("{}", fmt::join(words, ", "));
   };
+  std::optional<std::size_t> last_zone;  // with strains: that of the largest stress
   for (std::size_t z = 0; z < r.zones.size(); ++z) {
     const std::string zone = fmt::format("{} to {}", r.zones[z].from, r.zones[z].to);
+    if (r.parameters.empty() || std::isnan(row(range, 0)[z])) {
+      lines.push_back(zone + ": none of the strains of this study is in this zone");
+      continue;
+    }
+    last_zone = z;
     lines.push_back(zone + ": one at a time, MPa over the range: " + ranked(range, z, [&](auto j) {
                       return fmt::format("{:.3g}", row(range, j)[z]);
                     }));
@@ -146,9 +153,8 @@ std::vector<std::string> sensitivity_lines(const SensitivityRecord& r) {
                                percent(row(r.sobol->group_first.value, j)[z]) + ")";
                       }));
   }
-  // in the zone of the largest stress
-  if (r.morris && !r.zones.empty()) {
-    const std::size_t z = r.zones.size() - 1;
+  if (r.morris && last_zone) {
+    const std::size_t z = *last_zone;
     std::vector<std::string> words;
     for (std::size_t j = 0; j < r.parameters.size(); ++j) {
       const double sigma = row(r.morris->group_sigma.low, j)[z];
