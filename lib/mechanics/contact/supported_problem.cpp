@@ -36,18 +36,23 @@ Function evaluate(const SupportedProblem& p, const VecX& rho, const VecX& s, Mat
 
 LocalReport solve_supported(const SupportedProblem& p, VecX& s, const LocalOptions& options) {
   LocalReport report;
-  VecX rho(p.n_contacts());
-  for (int i = 0; i < rho.size(); ++i)
-    rho[i] = 1 / std::max(p.W.block<3, 3>(3 * i, 3 * i).norm(), 1e-300);
+  VecX compliance(p.n_contacts());
+  for (int i = 0; i < compliance.size(); ++i) compliance[i] = p.W.block<3, 3>(3 * i, 3 * i).norm();
+  // A candidate that is held has no compliance: it shares the limit of the others, and says nothing
+  // of the size of the forces.
+  const double least = std::max(1e-6 * compliance.maxCoeff(), 1e-300);
+  const VecX rho = compliance.cwiseMax(least).cwiseInverse();
   MatX Jacobian;
   const auto scale = [&](const VecX& at) {
-    return std::max(
-        {(p.b + p.A * at).lpNorm<Eigen::Infinity>(),
-         rho.cwiseProduct(
-                VecX::NullaryExpr(rho.size(), [&](Eigen::Index i) { return std::abs(p.q[3 * i]); }))
-                 .maxCoeff() *
-             1e-3,
-         1e-300});
+    return std::max({(p.b + p.A * at).lpNorm<Eigen::Infinity>(),
+                     rho.cwiseProduct(VecX::NullaryExpr(rho.size(),
+                                                        [&](Eigen::Index i) {
+                                                          if (compliance[i] < least) return 0.0;
+                                                          return std::abs(p.q[3 * i]);
+                                                        }))
+                             .maxCoeff() *
+                         1e-3,
+                     1e-300});
   };
   Function now = evaluate(p, rho, s, &Jacobian);
   for (; report.newton_steps < options.newton_steps; ++report.newton_steps) {
