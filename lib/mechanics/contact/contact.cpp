@@ -9,7 +9,10 @@ namespace langer {
 
 Vec3 indenter_displacement(const RigidContact& contact, double t, double travel) {
   Vec3 moved = Vec3::Zero();
-  if (!contact.motion.empty()) moved = value_at(contact.motion, t);
+  if (contact.in_proportion && !contact.motion.empty())
+    moved = t * contact.motion.back().to;
+  else if (!contact.motion.empty())
+    moved = value_at(contact.motion, t);
   if (contact.control) return Vec3(moved + travel * contact.control->along);
   return moved;
 }

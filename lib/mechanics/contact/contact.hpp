@@ -49,6 +49,7 @@ struct RigidContact {
   std::vector<int> nodes;        // candidates
   std::vector<Waypoint> motion;  // ascending t; under force control what is across its direction
   std::optional<ForceControl> control = {};
+  bool in_proportion = false;  // its displacement is t times the only waypoint, also beyond it
   std::optional<Rotation> rotation = {};
   std::optional<Adhesion> adhesion = {};
   std::vector<double> area =

@@ -24,9 +24,9 @@ struct ArcLengthOptions {
   double length = 0;
   static void fields(auto& v) {
     v(&ArcLengthOptions::length, "length", unit::mm,
-      "of the whole path: increments add up to it, each the root mean square movement of the nodes. t is "
-      "the share of it that has been covered, and load_factor, a result, multiplies all loads and imposed "
-      "displacements",
+      "of the whole path: increments add up to it, each the root mean square movement of the nodes, to which those of indenters are "
+      "added. t is the share of it that has been covered, and load_factor, a result, multiplies all loads, imposed displacements and ways "
+      "of indenters",
       required, positive);
   }
 };

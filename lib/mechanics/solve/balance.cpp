@@ -166,9 +166,14 @@ void Statics::moved(const VecX& du, double step) {
   else
     equilibrium_.predict_pressures(du, step, again_);
   const std::vector<Vec3>& X = equilibrium_.mesh().X;
+  // the law was linearised at the end of an arc, and else where the indenter is
+  const double dt = arc_ ? t_next_ : 0;
+  const double d_travel = arc_ ? travel_next_ : 0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const Vec3 c = indenter_displacement(contacts_[k], t_, travel_);
-    const Vec3 dc = indenter_displacement(contacts_[k], t_, travel_ + step * travel_next_) - c;
+    const Vec3 c = indenter_displacement(contacts_[k], t_ + dt, travel_ + d_travel);
+    const Vec3 end =
+        indenter_displacement(contacts_[k], t_ + step * dt, travel_ + step * travel_next_);
+    const Vec3 dc = end - c;
     for (std::size_t i = 0; i < r_[k].size(); ++i) {
       if (r_next_[k][i].isZero(0) && r_[k][i].isZero(0)) continue;
       const int node = contacts_[k].nodes[i];
@@ -187,7 +192,10 @@ void Statics::moved(const VecX& du, double step) {
     bodies_.turn(X, u_, step * du, r_, contacts_.size());
   }
   if (controlled_ >= 0) travel_ += step * travel_next_;
-  if (starts_with_travel()) slip_from_touch(static_cast<std::size_t>(controlled_), expected_);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const bool follows_travel = starts_with_travel() && static_cast<int>(k) == controlled_;
+    if (contacts_[k].mu > 0 && (arc_ || follows_travel)) slip_from_touch(k, expected_);
+  }
 }
 
 }  // namespace langer

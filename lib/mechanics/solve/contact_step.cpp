@@ -233,6 +233,10 @@ std::optional<ContactChange> Statics::change_of_contact(const VecX& rhs, LinearS
     const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
     return linearised_bodies(state, bodies_, now_.u, remaining_prescribed(u_), factor_, half.last);
   }
+  if (arc_) {  // its travel is an unknown of the border
+    const ContactState state{contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_};
+    return linearised_contact(state, factor_, move_of_node);
+  }
   double force = 0;
   if (controlled_ >= 0) force = required_force();
   return linearised_contact({contacts_, equilibrium_.mesh().X, u_, u_start_, c, c_start, r_,
@@ -263,40 +267,43 @@ int Statics::level_of_increment(const BodyState& from, double t, double last_tra
   return level;
 }
 
-std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
+// The movement of the free rows, with the change of contact that belongs to it.
+std::optional<VecX> Statics::move_with_contact(const VecX& rhs) {
   LinearSolver& linear = factor_.linear();
-  VecX move;
+  LinearSolver::Half half;
+  std::optional<ContactChange> change = change_of_contact(rhs, half);
+  while (change && change->level) {  // more candidates may close than the factor keeps apart
+    factor_.take_level(equilibrium_, *change->level);
+    factor_serves_ = of_accepted_ = false;
+    if (again_ || !factorize()) return std::nullopt;
+    factor_serves_ = factor_.kind() == TangentFactor::Kind::whole &&
+                     equilibrium_.formulation() != Formulation::displacement;
+    change = change_of_contact(rhs, half);
+  }
+  if (!change) return std::nullopt;
+  r_next_ = std::move(change->r);
+  travel_next_ = change->travel;
+  cost_.sweeps += change->sweeps;
+  const Stopwatch watch(cost_.solve);
+  if (factor_.kind() == TangentFactor::Kind::whole) return linear.finish(half, change->force);
+  // Supporting springs cancel against contact forces: less rounding if before the elimination.
+  VecX all = rhs;
+  for (std::size_t i = 0; i < factor_.last().size(); ++i)
+    all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
+  return linear.solve(all);
+}
+
+std::optional<VecX> Statics::solve_condensed(const VecX& rhs) {
   if (contacts_.empty() && bodies_.empty()) {
     const Stopwatch watch(cost_.solve);
-    move = solve_nonsymmetric(rhs);
+    VecX move = solve_nonsymmetric(rhs);
     if (bordered()) solve_border(move);
-  } else {
-    LinearSolver::Half half;
-    std::optional<ContactChange> change = change_of_contact(rhs, half);
-    while (change && change->level) {  // more candidates may close than the factor keeps apart
-      factor_.take_level(equilibrium_, *change->level);
-      factor_serves_ = of_accepted_ = false;
-      if (again_ || !factorize()) return std::nullopt;
-      factor_serves_ = factor_.kind() == TangentFactor::Kind::whole &&
-                       equilibrium_.formulation() != Formulation::displacement;
-      change = change_of_contact(rhs, half);
-    }
-    if (!change) return std::nullopt;
-    r_next_ = std::move(change->r);
-    travel_next_ = change->travel;
-    cost_.sweeps += change->sweeps;
-    const Stopwatch watch(cost_.solve);
-    if (factor_.kind() == TangentFactor::Kind::whole) {
-      move = linear.finish(half, change->force);
-    } else {
-      // Supporting springs cancel against contact forces: less rounding if before the elimination.
-      VecX all = rhs;
-      for (std::size_t i = 0; i < factor_.last().size(); ++i)
-        all[factor_.last()[i]] += change->force[static_cast<Eigen::Index>(i)];
-      move = linear.solve(all);
-    }
+    return with_prescribed_dofs(move);
   }
-  return with_prescribed_dofs(move);
+  if (arc_) return solve_arc_with_contact(rhs);
+  const std::optional<VecX> move = move_with_contact(rhs);
+  if (!move) return std::nullopt;
+  return with_prescribed_dofs(*move);
 }
 
 // The balance of the free dofs with fixed contact reactions, for solvers that know no contact

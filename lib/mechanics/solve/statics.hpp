@@ -81,8 +81,8 @@ class Statics {
 
   void begin(double t);  // starts an increment to t: predicts its trial state
   // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
-  // root mean square of the nodes' movement is `length` [mm] instead. towards: (3 n) where it goes
-  // from here; none: on as before.
+  // root mean square of the nodes' movement is `length` [mm] instead. The movement of each indenter
+  // is added to it. towards: (3 n) where it goes from here; none: on as before.
   void begin_arc(double length, const VecX* towards = nullptr);
   // The same with a movement of `amplitude` [mm] along a mode (3 n, norm 1) instead.
   void begin_along(const VecX& mode, double amplitude);
@@ -202,6 +202,13 @@ class Statics {
   VecX imposed_direction(const VecX& u) const;  // what K_du() of the next assembly is of
   void update_border();
   void solve_border(VecX& move);
+  std::optional<VecX> move_with_contact(const VecX& rhs);
+  std::optional<VecX> solve_arc_with_contact(const VecX& rhs);
+  double arc_product(const VecX& u, const std::vector<Vec3>& c, const VecX& du,
+                     const std::vector<Vec3>& dc) const;
+  std::vector<Vec3> moves_of_indenters(double t0, double travel0, double t1, double travel1) const;
+  void begin_contact_of_arc();
+  bool contact_closes(double s) const;
   double arc_step(const VecX& a, const VecX& b) const;
   void move_border(double step);
   std::string border_defect(const VecX& u) const;
@@ -262,9 +269,12 @@ class Statics {
   // Of an increment of which t is an unknown: sphere |u - u_n| = size around the accepted state, or
   // plane  normal . (u - u_n) = size.
   struct Arc {
-    double size = 0;  // [mm], of the vector of all dofs
-    VecX normal;      // of a plane; empty for a sphere
-    VecX towards;     // of the beginning; may be empty
+    double size = 0;                // [mm], of the vector of all dofs
+    double nodes = 0;               // the weight of the squared movement of an indenter
+    VecX normal;                    // of a plane; empty for a sphere
+    VecX towards;                   // of the beginning; may be empty
+    VecX last;                      // where contact closes: the movement of the last increment
+    std::vector<Vec3> last_c = {};  // and of the indenters in it
   };
   std::optional<Arc> arc_;
   double t_next_ = 0;            // what the last linear solve adds to t

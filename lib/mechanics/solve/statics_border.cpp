@@ -9,8 +9,13 @@
 //   sphere   |u - u_n|^2 = L^2:  (u - u_n) . du = (L^2 - |u - u_n|^2) / 2      [Crisfield 1981; Riks]
 //   plane    normal . (u - u_n) = a
 //   volume   V(u) = V_given:     c . du = V_given - V(u)
+// With contact, the movement du is piecewise linear in dx. Under force control the travel of the
+// indenter is one more unknown of the border, and the given force its equation. Indenters that move
+// join the sphere, each with the weight of all nodes:
+//   |u - u_n|^2 + nodes |c - c_n|^2 = L^2
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/tensor/dense.hpp"
 #include "mechanics/linear/krylov.hpp"
@@ -42,15 +47,18 @@ void Statics::begin_arc(double length, const VecX* towards) {
   const double nodes = (dofs.n_free() + static_cast<double>(dofs.prescribed.size())) / 3;
   Arc arc;
   arc.size = length * std::sqrt(nodes);
+  arc.nodes = nodes;
   if (towards) arc.towards = *towards;
   arc_ = arc;
   begin_border();
+  begin_contact_of_arc();
 }
 
 void Statics::begin_along(const VecX& mode, double amplitude) {
   begin(now_.t);
-  arc_ = Arc{amplitude, mode, amplitude * mode};
+  arc_ = Arc{amplitude, 0, mode, amplitude * mode};
   begin_border();
+  begin_contact_of_arc();
 }
 
 void Statics::begin_from(const VecX& u) {
@@ -73,6 +81,55 @@ void Statics::restart() {
   begin(now_.t);
   arc_ = arc;
   begin_border();
+  begin_contact_of_arc();
+}
+
+// How far each indenter goes from t0 to t1 [mm].
+std::vector<Vec3> Statics::moves_of_indenters(double t0, double travel0, double t1,
+                                              double travel1) const {
+  std::vector<Vec3> moves = indenters(t1, travel1);
+  const std::vector<Vec3> from = indenters(t0, travel0);
+  for (std::size_t k = 0; k < moves.size(); ++k) moves[k] -= from[k];
+  return moves;
+}
+
+// The scalar product of two movements of the nodes and the indenters.
+double Statics::arc_product(const VecX& u, const std::vector<Vec3>& c, const VecX& du,
+                            const std::vector<Vec3>& dc) const {
+  double product = u.dot(du);
+  for (std::size_t k = 0; k < c.size(); ++k) product += arc_->nodes * c[k].dot(dc[k]);
+  return product;
+}
+
+// Whether s times the last increment takes an open candidate through an indenter. Between
+// deformable surfaces that is not looked at.
+bool Statics::contact_closes(double s) const {
+  if (!bodies_.empty()) return true;
+  const std::vector<Vec3> c = indenters(now_.t + s * (now_.t - before_.t),
+                                        now_.travel + s * (now_.travel - before_.travel));
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    for (std::size_t i = 0; i < contacts_[k].nodes.size(); ++i) {
+      if (!now_.r[k][i].isZero(0)) continue;
+      const int node = contacts_[k].nodes[i];
+      const Vec3 u = now_.u.segment<3>(3 * node);
+      const Vec3 moved = u + s * (u - before_.u.segment<3>(3 * node));
+      const Vec3 x = equilibrium_.mesh().X[node] + moved - c[k];
+      if (shape_at(contacts_[k].shape, x).gap < 0) return true;
+    }
+  }
+  return false;
+}
+
+// How far the indenter goes is not known before, so any candidate may close.
+void Statics::begin_contact_of_arc() {
+  if (contacts_.empty() && bodies_.empty()) return;
+  expected_ = u_;
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (contacts_[k].mu > 0) slip_from_touch(k, expected_);
+  if (!bodies_.empty())
+    bodies_.turn(equilibrium_.mesh().X, now_.u, u_ - now_.u, r_, contacts_.size());
+  factor_.take_level(equilibrium_, factor_.levels().all());
+  factor_serves_ = false;
 }
 
 // The trial state of an arc: towards a given direction, else along the last increment. The first
@@ -90,8 +147,18 @@ void Statics::begin_border() {
     return;
   }
   const VecX last = now_.u - before_.u;
-  if (!(last.norm() > 0) || arc_->normal.size() > 0) return;
-  const double s = arc_->size / last.norm();
+  const std::vector<Vec3> last_c =
+      moves_of_indenters(before_.t, before_.travel, now_.t, now_.travel);
+  const double last_size = std::sqrt(arc_product(last, last_c, last, last_c));
+  if (!(last_size > 0) || arc_->normal.size() > 0) return;
+  const double s = arc_->size / last_size;
+  if (contact_closes(s)) {
+    // The first correction goes in the direction of the last increment, and knows the contact.
+    arc_->last = last / last_size;
+    arc_->last_c = last_c;
+    for (Vec3& c : arc_->last_c) c /= last_size;
+    return;
+  }
   if (!options_.extrapolate || !admissible(now_.u + s * last)) return;
   equilibrium_.extrapolate_pressures(before_.u, s);
   u_ = now_.u + s * last;
@@ -166,6 +233,104 @@ void Statics::solve_border(VecX& move) {
   for (int j = 0; j < m; ++j) move += p_next_[j] * moves[static_cast<std::size_t>(j)];
 }
 
+// The unknowns of the border are the change of t and, under force control, that of the travel.
+// Their equations are the length of the arc and the given force. For given unknowns the contact
+// problem is that of an indenter that is moved, which stays regular where the force has an
+// extremum. Newton's method with a matrix of differences, which Broyden's update corrects where the
+// contact changes.
+std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
+  constexpr double exact = 1e-11;
+  constexpr double enough = 1e-3;  // the next correction finds the rest
+  constexpr int most = 30;
+  const double t = t_;
+  const double travel = travel_;
+  const double size = arc_->size;
+  const bool pushed = controlled_ >= 0;
+  const Eigen::Index n = pushed ? 2 : 1;
+  const VecX moved = u_ - now_.u;
+  const std::vector<Vec3> moved_c = moves_of_indenters(now_.t, now_.travel, t_, travel_);
+  const double squared = arc_product(moved, moved_c, moved, moved_c);
+  struct Point {
+    VecX x;  // change of t, and of the travel [mm]
+    VecX miss;
+    VecX du;
+    Reactions r;
+  };
+  // The linearised equation of the arc, relative to its squared length. The first correction goes
+  // as far as the arc in the direction of the last increment, and at the beginning of the path in
+  // any direction.
+  const auto miss_of_arc = [&](const VecX& du, const std::vector<Vec3>& dc) {
+    if (arc_->normal.size() > 0) return arc_->normal.dot(moved + du) / size - 1;
+    if (squared == 0 && arc_->last.size() > 0)
+      return arc_product(arc_->last, arc_->last_c, du, dc) / size - 1;
+    if (squared == 0) return std::sqrt(arc_product(du, dc, du, dc)) / size - 1;
+    return (arc_product(moved, moved_c, du, dc) - 0.5 * (size * size - squared)) / (size * size);
+  };
+  const auto miss_of_force = [&] {
+    const ForceControl& control = *controlled()->control;
+    double borne = 0;
+    for (const Vec3& r : r_next_[static_cast<std::size_t>(controlled_)])
+      borne += r.dot(control.along);
+    return (borne - control.force.at(t_)) / std::abs(control.force.value);
+  };
+  const auto at = [&](const VecX& x) -> std::optional<Point> {
+    t_ = t + x[0];
+    if (pushed) travel_ = travel + x[1];
+    t_next_ = 0;
+    std::optional<Point> point;
+    if (const std::optional<VecX> move = move_with_contact(rhs + x[0] * columns_.front())) {
+      point = Point{x, VecX(n), with_prescribed_dofs(*move), r_next_};
+      point->miss[0] = miss_of_arc(point->du, moves_of_indenters(t, travel, t_, travel_));
+      if (pushed) point->miss[1] = miss_of_force();
+    }
+    t_ = t;
+    travel_ = travel;
+    return point;
+  };
+
+  VecX probe(n);
+  const double last = std::abs(now_.t - before_.t);
+  probe[0] = last > 0 ? 0.1 * last : 1e-3;
+  if (pushed) probe[1] = 0.01 * size / std::sqrt(arc_->nodes);
+  std::optional<Point> here = at(VecX::Zero(n));
+  MatX slopes(n, n);
+  bool current = false;  // slopes are differences at `here`
+  for (int i = 0; i < most && here && here->miss.lpNorm<Eigen::Infinity>() > exact; ++i) {
+    for (Eigen::Index k = 0; k < n && !current; ++k) {
+      VecX x = here->x;
+      x[k] += probe[k];
+      const std::optional<Point> beside = at(x);
+      if (!beside) return std::nullopt;
+      slopes.col(k) = (beside->miss - here->miss) / probe[k];
+    }
+    const bool renewed = std::exchange(current, true) == false;
+    const Lu factors(slopes);
+    const VecX step = factors.solve(-here->miss);
+    if (!step.allFinite()) break;
+    std::optional<Point> next;
+    double share = 1;
+    for (; share > 0.02; share *= 0.5) {
+      next = at(here->x + share * step);
+      if (next && next->miss.norm() < (1 - 0.1 * share) * here->miss.norm()) break;
+    }
+    if (share > 0.02) {
+      const VecX taken = next->x - here->x;
+      slopes +=
+          (next->miss - here->miss - slopes * taken) * taken.transpose() / taken.squaredNorm();
+      here = std::move(next);
+    } else if (renewed) {
+      break;
+    } else {
+      current = false;
+    }
+  }
+  if (!here || here->miss.lpNorm<Eigen::Infinity>() > enough) return std::nullopt;
+  t_next_ = here->x[0];
+  travel_next_ = pushed ? here->x[1] : 0;
+  r_next_ = std::move(here->r);
+  return here->du;
+}
+
 void Statics::move_border(double step) {
   if (arc_) {
     t_ += step * t_next_;
@@ -180,7 +345,8 @@ void Statics::move_border(double step) {
 std::string Statics::border_defect(const VecX& u) const {
   if (arc_) {
     const VecX moved = u - now_.u;
-    double size = moved.norm();
+    const std::vector<Vec3> moved_c = moves_of_indenters(now_.t, now_.travel, t_, travel_);
+    double size = std::sqrt(arc_product(moved, moved_c, moved, moved_c));
     if (arc_->normal.size() > 0) size = arc_->normal.dot(moved);
     if (std::abs(size - arc_->size) > arc_reached * std::abs(arc_->size))
       return "the length of the arc is not the given one";

@@ -53,6 +53,13 @@ struct StepRecord {
   std::map<std::string, ContactRecord> contacts;  // by contact name; empty without contact
 };
 
+// By which loads are multiplied: t itself but on paths with arc lengths.
+inline double load_factor_of(const StepRecord& step) {
+  const auto found = step.scalars.find("load_factor");
+  if (found == step.scalars.end()) return step.t;
+  return found->second;
+}
+
 // The parts of a solution that all steps share.
 struct SolutionHeader {
   Mesh mesh;

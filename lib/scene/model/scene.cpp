@@ -439,7 +439,7 @@ void add_contacts(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& con
                   const Mesh& mesh, const Find& where) {
   for (const auto& [name, contact] : config.contacts) {
     const std::string key = fmt::format("contacts.{}", name);
-    RigidContact rigid = indenter_of(name, contact, config.path.seconds);
+    RigidContact rigid = indenter_of(name, contact, config.path);
     read_triangles(rigid);
     take_stops(contact.motion, config.path.seconds, key + ".motion", scene.stops, nodes);
     if (contact.control)
@@ -489,8 +489,10 @@ void add_contacts(Scene& scene, ConstraintBuilder& nodes, const SolveConfig& con
 }  // namespace
 
 RigidContact indenter_of(const std::string& name, const ContactConfig& contact,
-                         std::optional<double> seconds) {
+                         const LoadPathOptions& path) {
+  const std::optional<double> seconds = path.seconds;
   RigidContact rigid{name, contact.rigid.value(), contact.friction, {}, {}};
+  rigid.in_proportion = path.arc_length.has_value();
   for (const WaypointConfig& w : contact.motion)
     rigid.motion.push_back({place(w, seconds), Vec3(w.to[0], w.to[1], w.to[2])});
   if (contact.control)

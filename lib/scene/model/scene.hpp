@@ -45,7 +45,7 @@ inline bool has_direction(const Fibre& family) {
 
 // shape, friction and path as the config gives them; no candidates
 RigidContact indenter_of(const std::string& name, const ContactConfig& contact,
-                         std::optional<double> seconds);
+                         const LoadPathOptions& path);
 
 std::vector<TurnedSet> turned_sets(const SolveConfig& config,
                                    const Mesh& mesh);  // those whose set the mesh has

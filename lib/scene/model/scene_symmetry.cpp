@@ -410,7 +410,7 @@ void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record
   record.force_ind = kept_directions_.cwiseProduct(reduced.force_ind);
   if (!contacts_.empty()) {
     const auto travel = record.scalars.find("travel_" + contacts_[0].name);
-    record.u_ind = indenter_displacement(contacts_[0], record.t,
+    record.u_ind = indenter_displacement(contacts_[0], load_factor_of(record),
                                          travel == record.scalars.end() ? 0 : travel->second);
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

@@ -745,11 +745,10 @@ struct SolveConfig {
         refuse(key, "reduce: auto", "one of the two",
                "a section of its own: geometry: {section: ...}");
     }
-    for (const std::string& key : {volume, std::string(path.arc_length ? "path.arc_length" : "")})
-      if (!key.empty() && !contacts.empty())
-        refuse(
-            key, "contacts", "a scene without indenters",
-            "its equation cannot be solved together with those of contact yet: hold or move sets of nodes");
+    if (!volume.empty() && !contacts.empty())
+      refuse(
+          volume, "contacts", "a scene without indenters",
+          "its equation cannot be solved together with those of contact yet: hold or move sets of nodes");
     if (!volume.empty() && path.arc_length)
       refuse("path.arc_length", "a given volume", "one of the two",
              "volumes grow where pressures turn back: no arc length is needed");
@@ -763,6 +762,24 @@ struct SolveConfig {
           refuse(at, "path.arc_length", "displacements and forces",
                  "a turn is not in proportion to the load factor");
       }
+    for (const auto& [name, contact] : contacts) {
+      if (!path.arc_length) break;
+      const std::string at = "contacts." + name;
+      if (contact.adhesion)
+        refuse(at + ".adhesion", "path.arc_length", "one of the two",
+               "bonds that let go shorten an increment by themselves");
+      if (contact.rotation)
+        refuse(at + ".rotation", "path.arc_length", "motion or control",
+               "a turn is not in proportion to the load factor");
+      if (contact.control && !contact.control->force.points.empty())
+        refuse(at + ".control.force", "path.arc_length",
+               "a number: a force in proportion to the load factor",
+               "the load factor turns back, and a history has no time to");
+      if (contact.motion.size() > 1 || (contact.motion.size() == 1 && contact.motion[0].t != 1))
+        refuse(at + ".motion", "path.arc_length",
+               "one point, {t: 1, to: [x, y, z]}: a way in proportion to the load factor",
+               "the load factor turns back, and a history has no time to");
+    }
     std::vector<std::string> of_modes;
     if (branch) of_modes.emplace_back("branch");
     if (imperfection) of_modes.emplace_back("imperfection");

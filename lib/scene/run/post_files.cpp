@@ -182,7 +182,7 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
     for (const auto& [name, contact] : solve.contacts) {
       if (contact.deformable()) continue;
       if (!header.contact_nodes.count(name)) return {};
-      RigidContact indenter = indenter_of(name, contact, solve.path.seconds);
+      RigidContact indenter = indenter_of(name, contact, solve.path);
       indenter.nodes = header.contact_nodes.at(name);
       if (is_from_file(indenter.shape)) {
         const auto surface = header.indenter_surfaces.find(name);
@@ -197,16 +197,18 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   return indenters;
 }
 
-// A force-controlled indenter has no prescribed motion; it is where the steps found it.
+// Under force control, and where the load factor is a result, an indenter is where the steps found
+// it.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution) {
   for (RigidContact& indenter : indenters) {
-    if (!indenter.control) continue;
+    if (!indenter.control && !indenter.in_proportion) continue;
     std::vector<Waypoint> found;
     for (int i = 0; i < solution.n_steps(); ++i) {
       const StepRecord step = solution.step(i);
       found.push_back({step.t, indenter_at(indenter, step)});
     }
     indenter.motion = std::move(found);
+    indenter.in_proportion = false;
   }
 }
 

@@ -24,6 +24,7 @@ StaticsOptions threads_of(const SolveConfig& config) {
     options.linear_by = newton->linear;
   if (config.path.arc_length || config.branch || config.imperfection)
     options.linear_by = LinearBy::direct;
+  if (config.path.arc_length) options.contact_by = ContactBy::compliance;
   return options;
 }
 

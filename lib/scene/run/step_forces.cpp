@@ -54,7 +54,7 @@ void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, Ste
     if (record.adhesive.empty()) continue;
     double travel = 0;
     if (contact.control) travel = whole.scalars.at("travel_" + contact.name);
-    const Vec3 at = indenter_displacement(contact, whole.t, travel);
+    const Vec3 at = indenter_displacement(contact, load_factor_of(whole), travel);
     const double pull = pull_force(contact, mesh, whole.u, record.r, record.adhesive, at);
     forces.pull = std::max(forces.pull, pull);
     double n = 0;

@@ -110,12 +110,6 @@ std::string of_volume(const char* name, const Loads& loads, int i) {
   return std::string(name) + "_" + loads.volume_load(i).on;
 }
 
-double load_factor_of(const StepRecord& step) {
-  const auto found = step.scalars.find("load_factor");
-  if (found == step.scalars.end()) return step.t;
-  return found->second;
-}
-
 VecX pressures_of(const StepRecord& step, const Loads& loads) {
   VecX pressures = VecX::Zero(loads.n_volumes());
   for (int i = 0; i < loads.n_volumes(); ++i) {
@@ -126,7 +120,7 @@ VecX pressures_of(const StepRecord& step, const Loads& loads) {
 }
 
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
-  return indenter_displacement(indenter, step.t,
+  return indenter_displacement(indenter, load_factor_of(step),
                                indenter.control ? step.scalars.at("travel_" + indenter.name) : 0);
 }
 

@@ -18,7 +18,6 @@ SolutionHeader header_of(const Mesh& mesh, Formulation formulation, const Scene&
                          const Identity& identity);
 // The name of a history of a given volume: with that of its set where there are several.
 std::string of_volume(const char* name, const Loads& loads, int i);
-double load_factor_of(const StepRecord& step);  // t itself but on paths with arc lengths
 VecX pressures_of(const StepRecord& step, const Loads& loads);  // of given volumes [MPa]
 // of the indenter at a recorded step [mm]
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step);
