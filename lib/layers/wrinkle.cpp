@@ -16,10 +16,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-// How far waves of the wavenumber k along a direction are from growing: negative where they grow.
-// The smallest stiffness of the surface, which is 0 at a wrinkle; the number of modes gives the
-// sign.
-double stability(const LayerStack& stack, double wave_angle, double k, int refine) {
+struct Surface {
+  double smallest = 0;  // stiffness
+  int modes = 0;        // that grow, by the count of pivots
+};
+
+Surface surface_of(const LayerStack& stack, double wave_angle, double k, int refine) {
   std::vector<DirectedModuli<double>> moduli;
   std::vector<double> thickness;
   for (const LayerState& layer : stack.layers) {
@@ -33,9 +35,21 @@ double stability(const LayerStack& stack, double wave_angle, double k, int refin
   LineChain<double> chain(moduli, line_mesh(thickness, k, decays, cuttable, choice), stack.bottom,
                           stack.surface_tension);
   chain.eliminate(k, 0);
-  const double smallest = principal_values(chain.surface())[0];
-  if (chain.modes_below() > 0) return -std::abs(smallest) - std::numeric_limits<double>::min();
-  return std::abs(smallest);
+  return {principal_values(chain.surface())[0], chain.modes_below()};
+}
+
+// How far waves of the wavenumber k along a direction are from growing: negative where they grow.
+// The smallest stiffness of the surface, which is 0 at a wrinkle; the number of modes gives the
+// sign. Lines that are too long for layers under strong stretch or with stiff fibres keep the
+// volume too loosely, and show modes that are none. Their number changes on finer lines, and then
+// the surface stiffness there decides.
+double stability(const LayerStack& stack, double wave_angle, double k, int refine) {
+  const Surface found = surface_of(stack, wave_angle, k, refine);
+  const double size = std::abs(found.smallest);
+  if (found.modes <= 0) return size;
+  const Surface finer = surface_of(stack, wave_angle, k, 3 * refine);
+  if (finer.modes != found.modes && finer.smallest > 0) return size;
+  return -size - std::numeric_limits<double>::min();
 }
 
 bool unstable(const LayerStack& stack, double wave_angle, double k, int refine) {
@@ -109,7 +123,8 @@ std::vector<double> wavenumbers(const LayerStack& stack) {
     whole = thinnest = length;
   }
   constexpr double ratio = 1.35;
-  const double shortest = 12 / thinnest;
+  // A surface tension makes short waves stiff; how short the first wrinkle is depends on it.
+  const double shortest = (stack.surface_tension > 0 ? 40 : 12) / thinnest;
   std::vector<double> all;
   for (double k = 0.01 / whole; k < shortest * ratio; k *= ratio) all.push_back(k);
   return all;
@@ -118,6 +133,12 @@ std::vector<double> wavenumbers(const LayerStack& stack) {
 struct Wave {
   double angle, k;
 };
+
+// In the deformed plane, from x towards z [rad].
+double direction_of_smallest_stretch(const PlaneDeformation& F) {
+  const PlaneDeformation B = F * F.transpose();
+  return 0.5 * std::atan2(-2 * B(0, 1), B(1, 1) - B(0, 0));
+}
 
 // Brackets of t: no wave of the list is unstable at `low`, those that remain are at `high`.
 struct Bracket {
@@ -160,6 +181,22 @@ std::pair<double, double> golden(double low, double high, double tolerance, cons
   }
   if (at_a < at_b) return {a, at_a};
   return {b, at_b};
+}
+
+// The direction within 12 degrees of another in which the surface is softest for waves of length k.
+double softest_direction(const LayerStack& stack, double middle, double k) {
+  constexpr double step = 3 * pi / 180;
+  double best = middle;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = -4; i <= 4; ++i) {
+    const double here = stability(stack, middle + i * step, k, 1);
+    if (here >= least) continue;
+    least = here;
+    best = middle + i * step;
+  }
+  return golden(best - step, best + step, 1e-3,
+                [&](double wave_angle) { return stability(stack, wave_angle, k, 1); })
+      .first;
 }
 
 // First t of waves along one direction over all wavenumbers near `start`, at the lines of `refine`.
@@ -256,6 +293,16 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   std::vector<Wave> waves = waves_along({0});
   const std::vector<Wave> others = waves_along({15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90});
   if (shear) waves.insert(waves.end(), others.begin(), others.end());
+  // Waves that grow under shear are close to the direction of the smallest stretch, which turns,
+  // and next to stiff fibres they fill less than a degree.
+  const auto waves_at = [&](double t) {
+    std::vector<Wave> all = waves;
+    if (!shear) return all;
+    const LayerStack stack = path.stack(t);
+    const double middle = direction_of_smallest_stretch(problem.deformation(angle, path.s(t)));
+    for (const double k : ks) all.push_back({softest_direction(stack, middle, k), k});
+    return all;
+  };
   if (!unstable_of(path, 0, waves).empty()) {
     wrinkle.kind = Wrinkle::Kind::at_once;
     return wrinkle;
@@ -272,16 +319,16 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
       wrinkle.kind = Wrinkle::Kind::no_state;
       return wrinkle;
     }
-    bracket.unstable = unstable_of(path, bracket.high, waves);
+    bracket.unstable = unstable_of(path, bracket.high, waves_at(bracket.high));
   }
   if (bracket.unstable.empty()) return wrinkle;
 
   // the first of them, among those that still grow
-  const auto narrow = [&path](Bracket& b) {
+  const auto narrow = [&](Bracket& b) {
     for (int i = 0; i < 60 && b.high - b.low > 1e-4 * b.high; ++i) {
       if (b.unstable.size() == 1 && b.high - b.low < 1e-2 * b.high) break;
       const double middle = 0.5 * (b.low + b.high);
-      std::vector<Wave> still = unstable_of(path, middle, b.unstable);
+      std::vector<Wave> still = unstable_of(path, middle, shear ? waves_at(middle) : b.unstable);
       if (still.empty()) {
         b.low = middle;
       } else {
@@ -294,7 +341,12 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
 
   // waves in other directions that grow even before
   if (!shear && problem.every_wave_direction) {
-    std::vector<Wave> earlier = unstable_of(path, bracket.low, others);
+    std::vector<Wave> tried = others;
+    const LayerStack stack = path.stack(bracket.low);
+    const double k = bracket.unstable[bracket.unstable.size() / 2].k;
+    for (const double factor : {0.75, 1.0, 1.35})
+      tried.push_back({softest_direction(stack, angle, factor * k), factor * k});
+    std::vector<Wave> earlier = unstable_of(path, bracket.low, tried);
     if (!earlier.empty()) {
       bracket.high = bracket.low;
       bracket.low = 0;
@@ -324,10 +376,11 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
   if (first.angle != angle || shear) {
     wrinkle.wave_angle = first.angle;
     for (const double reach : {0.3, 0.05, 0.01}) {
-      k0 = smallest_over_k(path, wrinkle.wave_angle, k0, from, to, 1, any_wavelength, reach).k;
+      const int lines = reach < 0.02 ? 2 : 1;
+      k0 = smallest_over_k(path, wrinkle.wave_angle, k0, from, to, lines, any_wavelength, reach).k;
       const double middle = wrinkle.wave_angle;
       wrinkle.wave_angle = golden(middle - reach, middle + reach, 1e-4, [&](double wave_angle) {
-                             const auto t = path.critical(from, to, wave_angle, k0, 1, 1e-11);
+                             const auto t = path.critical(from, to, wave_angle, k0, lines, 1e-11);
                              return t.value_or(to + 1e-9 * std::abs(wave_angle - middle));
                            }).first;
     }
