@@ -354,11 +354,19 @@ Wrinkle first_wrinkle(const WrinkleProblem& problem, double angle) {
       narrow(bracket);
     }
   }
-  const Wave first = bracket.unstable[bracket.unstable.size() / 2];
+  const Wave sampled = bracket.unstable[bracket.unstable.size() / 2];
+  Wave first = sampled;
+  if (!shear && problem.every_wave_direction && first.angle == angle) {
+    constexpr double off = 3e-3;  // directions by symmetry are found to less than that
+    const LayerStack stack = path.stack(bracket.high);
+    const double softest = softest_direction(stack, angle, first.k);
+    if (std::abs(softest - angle) > off && unstable(stack, softest, first.k, 1))
+      first.angle = softest;
+  }
   const double shortest = ks.back();
   const bool one_length = ks.size() == 1;
   const bool short_first = !one_length && bracket.unstable.back().k >= shortest * (1 - 1e-12) &&
-                           bracket.unstable.back().angle == first.angle;
+                           bracket.unstable.back().angle == sampled.angle;
   const bool long_first = !one_length && bracket.unstable.front().k <= ks.front() * (1 + 1e-12);
   wrinkle.wave_angle = first.angle;
   wrinkle.kind = Wrinkle::Kind::wavy;
