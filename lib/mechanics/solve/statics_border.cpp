@@ -253,6 +253,7 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
   struct Point {
     VecX x;  // change of t, and of the travel [mm]
     VecX miss;
+    double open = 0;  // the larger miss, that of the force relative to the force
     VecX du;
     Reactions r;
   };
@@ -266,12 +267,22 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
     if (squared == 0) return std::sqrt(arc_product(du, dc, du, dc)) / size - 1;
     return (arc_product(moved, moved_c, du, dc) - 0.5 * (size * size - squared)) / (size * size);
   };
-  const auto miss_of_force = [&] {
+  VecX probe(n);
+  const double last = std::abs(now_.t - before_.t);
+  probe[0] = last > 0 ? 0.1 * last : 1e-3;
+  if (pushed) probe[1] = 0.01 * size / std::sqrt(arc_->nodes);
+  double least_force = 0;  // to which the miss of the force is compared at least [N]
+  if (pushed)
+    least_force = std::abs(controlled()->control->force.value) * std::max(std::abs(t), probe[0]);
+  const auto add_miss_of_force = [&](Point& point) {
     const ForceControl& control = *controlled()->control;
     double borne = 0;
     for (const Vec3& r : r_next_[static_cast<std::size_t>(controlled_)])
       borne += r.dot(control.along);
-    return (borne - control.force.at(t_)) / std::abs(control.force.value);
+    const double given = control.force.at(t_);
+    point.miss[1] = (borne - given) / least_force;
+    const double largest = std::max({std::abs(borne), std::abs(given), 1e-300});
+    point.open = std::max(point.open, std::abs(borne - given) / largest);
   };
   const auto at = [&](const VecX& x) -> std::optional<Point> {
     t_ = t + x[0];
@@ -279,23 +290,20 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
     t_next_ = 0;
     std::optional<Point> point;
     if (const std::optional<VecX> move = move_with_contact(rhs + x[0] * columns_.front())) {
-      point = Point{x, VecX(n), with_prescribed_dofs(*move), r_next_};
+      point = Point{x, VecX(n), 0, with_prescribed_dofs(*move), r_next_};
       point->miss[0] = miss_of_arc(point->du, moves_of_indenters(t, travel, t_, travel_));
-      if (pushed) point->miss[1] = miss_of_force();
+      point->open = std::abs(point->miss[0]);
+      if (pushed) add_miss_of_force(*point);
     }
     t_ = t;
     travel_ = travel;
     return point;
   };
 
-  VecX probe(n);
-  const double last = std::abs(now_.t - before_.t);
-  probe[0] = last > 0 ? 0.1 * last : 1e-3;
-  if (pushed) probe[1] = 0.01 * size / std::sqrt(arc_->nodes);
   std::optional<Point> here = at(VecX::Zero(n));
   MatX slopes(n, n);
   bool current = false;  // slopes are differences at `here`
-  for (int i = 0; i < most && here && here->miss.lpNorm<Eigen::Infinity>() > exact; ++i) {
+  for (int i = 0; i < most && here && here->open > exact; ++i) {
     for (Eigen::Index k = 0; k < n && !current; ++k) {
       VecX x = here->x;
       x[k] += probe[k];
@@ -324,7 +332,7 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
       current = false;
     }
   }
-  if (!here || here->miss.lpNorm<Eigen::Infinity>() > enough) return std::nullopt;
+  if (!here || here->open > enough) return std::nullopt;
   t_next_ = here->x[0];
   travel_next_ = pushed ? here->x[1] : 0;
   r_next_ = std::move(here->r);
