@@ -101,22 +101,22 @@ struct FreeConfig {
   static void fields(auto& v) {
     v(&FreeConfig::mass_g, "mass_g", "g", "of the indenter; of a section that of the whole one",
       required, positive);
-    v(&FreeConfig::velocity, "velocity", "mm/s", "at the beginning, parallel to `along`", required);
-    v(&FreeConfig::along, "along", unit::none, "direction in which it may move; any length");
+    v(&FreeConfig::velocity, "velocity", "mm/s", "at the beginning, parallel to `along`", required,
+      between(-1e9, 1e9));
+    v(&FreeConfig::along, "along", unit::none, "direction in which it may move; any length",
+      between(-1e100, 1e100));
   }
+  static double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
   double speed() const {  // along its direction [mm/s]
-    double dot = 0, squared = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      dot += along[k] * velocity[k];
-      squared += along[k] * along[k];
-    }
-    return dot / std::sqrt(squared);
+    double dot = 0;
+    for (std::size_t k = 0; k < 3; ++k) dot += along[k] / length(along) * velocity[k];
+    return dot;
   }
   std::vector<Complaint> complaints() const {
     if (along == std::array<double, 3>{}) return {{"along", "found [0, 0, 0]", "a direction", ""}};
-    double squared = 0;
-    for (double one : velocity) squared += one * one;
-    if (squared - speed() * speed() > 1e-12 * squared)
+    const double size = length(velocity);
+    const double along_it = size > 0 ? speed() / size : 1;
+    if (1 - along_it * along_it > 1e-12)
       return {{"velocity", "found a velocity across `along`", "one parallel to it",
                "the indenter is guided along that direction"}};
     return {};
