@@ -143,6 +143,7 @@ struct FromFile {
   static constexpr const char* key = "file";
   InputPath file;
   std::optional<double> edge;
+  std::optional<double> seal;
   double scale = 1;
   static void fields(auto& v) {
     v(&FromFile::file, "path", unit::none,
@@ -152,6 +153,8 @@ struct FromFile {
       required);
     v(&FromFile::edge, "edge", unit::mm,
       "length of the cells that a .step or .stl is meshed with, about", positive);
+    v(&FromFile::seal, "seal", unit::mm,
+      "holes of an .stl up to this width are filled; none: an open surface is refused", positive);
     v(&FromFile::scale, "scale", unit::none, "mm in one unit of length of the file", positive);
   }
   bool is_inp() const;

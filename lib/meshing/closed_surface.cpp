@@ -1,6 +1,7 @@
 #include "meshing/closed_surface.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/text.hpp"
+#include "meshing/seal_holes.hpp"
 
 namespace langer {
 
@@ -88,9 +90,19 @@ void require_closed(const Triangles& surface, const std::string& shown_name) {
               "a closed surface, each of whose edges belongs to two triangles",
               hint});
   };
-  if (!open.empty())
-    refuse(open, "the surface is open",
-           "fill the hole in the program that made the file (Meshmixer, MeshLab: Close Holes)");
+  if (!open.empty()) {
+    std::string hint =
+        "fill the hole in the program that made the file (Meshmixer, MeshLab: Close Holes)";
+    double widest = 0;
+    for (const Hole& hole : holes_of(surface)) widest = std::max(widest, hole.width);
+    // rounded upwards, so that the advice works
+    if (widest > 0)
+      hint = fmt::format(
+                 "seal: {:.3g} fills holes of this width (times scale, where that is given); or ",
+                 1.01 * widest) +
+             hint;
+    refuse(open, "the surface is open", hint);
+  }
   if (!crowded.empty())
     refuse(crowded, "more than two triangles meet at one edge",
            "remove walls inside and triangles that are there twice");

@@ -25,10 +25,16 @@ constexpr auto names(MeshFormat) { return std::array{"msh", "inp"}; }
 // `notes`: what was left out.
 Mesh read_msh(const std::string& path, std::vector<std::string>& notes);
 Mesh read_inp(const std::string& path, std::vector<std::string>& notes);
-// A solid of CAD (STEP) or what triangles enclose (facets: STL), meshed by gmsh with cells of about
-// `edge` mm: face_<n> are its faces, body_<n> its bodies where there are several. An open surface
-// is refused; `notes` states the volume that straight edges cut off.
-Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells,
+struct SolidOptions {
+  bool is_surface = false;  // triangles (STL) that enclose it, else CAD (STEP)
+  double edge = 1;          // length of the cells, about
+  CellType cells = CellType::hex8;
+  double seal = 0;  // width up to which holes of a surface are filled
+};
+// A solid meshed by gmsh, lengths in units of the file: face_<n> are its faces, body_<n> its bodies
+// where there are several. A surface that stays open is refused; `notes` states what was filled and
+// the volume that straight edges cut off.
+Mesh read_solid(const std::string& path, const SolidOptions& options,
                 std::vector<std::string>& notes);
 Mesh parse_inp(const std::string& text, const std::string& shown_name,
                std::vector<std::string>& notes);

@@ -42,6 +42,8 @@ bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
 
 std::vector<Complaint> FromFile::complaints() const {
   const std::string kind = kind_of(file.path);
+  if (seal && kind != "stl")
+    return {{"seal", "found together with a ." + kind, "a surface of triangles, .stl", ""}};
   if (kind == "msh" || kind == "inp") {
     if (edge)
       return {{"edge", "found together with a mesh", "no edge: the file has its own cells", ""}};
@@ -65,7 +67,9 @@ Mesh read_by_kind(const FromFile& from, CellType cells, std::vector<std::string>
   const std::string kind = kind_of(path);
   if (kind == "msh") return read_msh(path, notes);
   if (kind == "inp") return read_inp(path, notes);
-  return read_solid(path, kind == "stl", *from.edge / from.scale, cells, notes);
+  SolidOptions options{kind == "stl", *from.edge / from.scale, cells, 0};
+  if (from.seal) options.seal = *from.seal / from.scale;
+  return read_solid(path, options, notes);
 }
 
 }  // namespace

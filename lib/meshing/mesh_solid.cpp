@@ -13,6 +13,7 @@
 #include "meshing/gmsh/gmsh_load.hpp"
 #include "meshing/msh_mesh.hpp"
 #include "meshing/read_surface.hpp"
+#include "meshing/seal_holes.hpp"
 #include "meshing/split_tetrahedra.hpp"
 
 namespace langer {
@@ -34,10 +35,10 @@ struct Attempt {
 
 class SolidMesher {
  public:
-  SolidMesher(const std::string& path, bool is_surface, double edge, CellType cells)
-      : path_(path), is_surface_(is_surface), edge_(edge) {
-    hexahedra_ = reference(cells).hexahedron();
-    if (is_surface)
+  SolidMesher(const std::string& path, const SolidOptions& options)
+      : path_(path), is_surface_(options.is_surface), edge_(options.edge), seal_(options.seal) {
+    hexahedra_ = reference(options.cells).hexahedron();
+    if (is_surface_)
       read_closed_surface();
     else
       read_step();
@@ -46,6 +47,7 @@ class SolidMesher {
   Mesh mesh(std::vector<std::string>& notes) {
     Attempt best = best_attempt();
     if (is_surface_) add_volume_note(best);
+    notes.insert(notes.end(), sealed_.begin(), sealed_.end());
     notes.insert(notes.end(), best.notes.begin(), best.notes.end());
     return std::move(best.mesh);
   }
@@ -54,6 +56,8 @@ class SolidMesher {
   std::string path_;
   bool is_surface_;
   double edge_;
+  double seal_;
+  std::vector<std::string> sealed_;  // notes
   bool hexahedra_ = true;
   std::string step_;
   gmsh_module::Surface surface_;
@@ -65,7 +69,13 @@ class SolidMesher {
   }
 
   void read_closed_surface() {
-    const Triangles triangles = read_surface(path_, FlatTriangles::allowed);
+    Triangles triangles = read_surface(path_, FlatTriangles::allowed);
+    for (const Hole& hole : holes_of(triangles)) {
+      if (hole.width > seal_ || !fill(hole, triangles)) continue;
+      sealed_.push_back(fmt::format(
+          "filled a hole of {} edges, {:.3g} wide, at ({:.4g}, {:.4g}, {:.4g})", hole.points.size(),
+          hole.width, hole.middle[0], hole.middle[1], hole.middle[2]));
+    }
     require_closed(triangles, path_);
     enclosed_ = enclosed_volume(triangles);
     for (const Vec3& point : triangles.points)
@@ -156,9 +166,9 @@ class SolidMesher {
 
 }  // namespace
 
-Mesh read_solid(const std::string& path, bool facets, double edge, CellType cells,
+Mesh read_solid(const std::string& path, const SolidOptions& options,
                 std::vector<std::string>& notes) {
-  return SolidMesher(path, facets, edge, cells).mesh(notes);
+  return SolidMesher(path, options).mesh(notes);
 }
 
 }  // namespace langer

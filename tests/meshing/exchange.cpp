@@ -193,7 +193,7 @@ TEST_CASE(
     gmsh::write(path);
   }
   std::vector<std::string> notes;
-  const Mesh mesh = read_solid(path, false, 1.5, CellType::hex8, notes);
+  const Mesh mesh = read_solid(path, {false, 1.5, CellType::hex8}, notes);
   CHECK(mesh.bodies.size() == 2);
   const Quality q = quality(mesh);
   CHECK(q.least_jacobian > 0);  // flat tetrahedra make flat hexahedra, none is folded
@@ -209,7 +209,7 @@ TEST_CASE(
     CHECK(named == 1);
   }
   // as tetrahedra
-  const Mesh split = read_solid(path, false, 3, CellType::tet15, notes);
+  const Mesh split = read_solid(path, {false, 3, CellType::tet15}, notes);
   CHECK(split.type == CellType::tet15);
   CHECK(split.bodies == mesh.bodies);
   CHECK(quality(split).least_jacobian > 0);
@@ -248,7 +248,7 @@ TEST_CASE(
     gmsh::model::occ::synchronize();
     gmsh::write(path);
   }
-  const Mesh ball = read_solid(path, false, 1, CellType::hex8, notes);
+  const Mesh ball = read_solid(path, {false, 1, CellType::hex8}, notes);
   CHECK(ball.bodies == std::vector<std::string>{""});
   CHECK(quality(ball).volume == near(4. / 3 * 3.141592653589793 * 125, 0.03));
   // the same ball and a box as triangles
@@ -263,17 +263,17 @@ TEST_CASE(
     gmsh::write(facets);
   };
   meshed([] { gmsh::model::occ::addBox(0, 0, 0, 6, 2, 4); });
-  const Mesh box = read_solid(facets, true, 1, CellType::hex8, notes);
+  const Mesh box = read_solid(facets, {true, 1, CellType::hex8}, notes);
   CHECK(quality(box).volume == near(48, 1e-6));
   CHECK(quality(box).least_jacobian > 0);
   CHECK(box.facet_sets.size() >= 6);  // gmsh may cut a face of triangles into several
   meshed([] { gmsh::model::occ::addSphere(0, 0, 0, 5); });
-  CHECK(quality(read_solid(facets, true, 1, CellType::hex8, notes)).volume ==
+  CHECK(quality(read_solid(facets, {true, 1, CellType::hex8}, notes)).volume ==
         near(4. / 3 * 3.141592653589793 * 125, 0.03));
   std::ofstream(folder() + "/no.stl") << "nothing";
-  CHECK_THROWS_AS(read_solid(folder() + "/no.stl", true, 1, CellType::hex8, notes), Failure);
+  CHECK_THROWS_AS((read_solid(folder() + "/no.stl", {true, 1, CellType::hex8}, notes)), Failure);
   std::ofstream(folder() + "/no.step") << "nothing";
-  CHECK_THROWS_AS(read_solid(folder() + "/no.step", false, 1, CellType::hex8, notes), Failure);
+  CHECK_THROWS_AS((read_solid(folder() + "/no.step", {false, 1, CellType::hex8}, notes)), Failure);
 }
 
 }  // namespace exchange_tests

@@ -357,8 +357,8 @@ TEST_CASE("settings of gmsh beside a mesh, a surface and a STEP file are never r
   add_settings(path + ".step");
   add_settings(path + ".stl");
   const std::set<std::string> before = files_in(folder);
-  CHECK(read_solid(path + ".step", false, 1, CellType::hex8, notes).n_cells() > 0);
-  CHECK(read_solid(path + ".stl", true, 1, CellType::tet15, notes).n_cells() > 0);
+  CHECK(read_solid(path + ".step", {false, 1, CellType::hex8}, notes).n_cells() > 0);
+  CHECK(read_solid(path + ".stl", {true, 1, CellType::tet15}, notes).n_cells() > 0);
   CHECK(files_in(folder) == before);
   CHECK_FALSE(fs::exists(folder / "ran"));
 }
@@ -372,7 +372,10 @@ TEST_CASE("gmsh is given nothing but what is STEP, whatever the file is called")
         std::string("x ISO-10303-21;\n")}) {
     const fs::path path = folder / "part.step";
     std::ofstream(path, std::ios::binary) << bytes;
-    CHECK(refusal(path, [&] { read_solid(path.string(), false, 1, CellType::hex8, notes); }) ==
+    CHECK(refusal(path,
+                  [&] {
+                    read_solid(path.string(), {false, 1, CellType::hex8}, notes);
+                  }) ==
           path.string() +
               ": this is no STEP file; expected a STEP file, which begins with ISO-10303-21");
   }
@@ -381,8 +384,9 @@ TEST_CASE("gmsh is given nothing but what is STEP, whatever the file is called")
                            "DATA;\n#1=CARTESIAN_POINT('',(1.E400,nan,0.));\n#2=#2;\n",
                            "((((((((((((((((((((((((((((("}) {
     std::ofstream(path, std::ios::binary) << "ISO-10303-21;\n" << rest;
-    const std::string message =
-        refusal(path, [&] { read_solid(path.string(), false, 1, CellType::hex8, notes); });
+    const std::string message = refusal(path, [&] {
+      read_solid(path.string(), {false, 1, CellType::hex8}, notes);
+    });
     CHECK(message.starts_with(path.string() + ": "));
   }
   CHECK_FALSE(fs::exists(folder / "ran"));

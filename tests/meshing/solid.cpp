@@ -17,7 +17,9 @@
 #include "meshing/closed_surface.hpp"
 #include "meshing/exchange.hpp"
 #include "meshing/read_surface.hpp"
+#include "meshing/seal_holes.hpp"
 #include "meshing/split_tetrahedra.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -127,7 +129,7 @@ TEST_CASE("an open surface is refused with the number and the places of its open
   CHECK(message.starts_with("t.stl: the surface is open; 3 edges with the middles "));
   for (const char* place : {"(0, 1, 0)", "(1, 2, 0)", "(1, 1, 0)"})
     CHECK(message.find(place) != std::string::npos);
-  CHECK(message.find("hint: fill the hole") != std::string::npos);
+  CHECK(message.find("fill the hole in the program") != std::string::npos);
 
   std::vector<Corners> face = box();
   face.erase(face.begin(), face.begin() + 2);
@@ -170,11 +172,73 @@ TEST_CASE("an open file is refused before gmsh is asked, and the closed one is m
   std::vector<Corners> open = spindle(8, 8);
   open.pop_back();
   const std::string path = write_stl("open", open);
-  CHECK_THROWS_WITH_AS(read_solid(path, true, 1, CellType::tet15, notes),
+  CHECK_THROWS_WITH_AS((read_solid(path, {true, 1, CellType::tet15}, notes)),
                        doctest::Contains("the surface is open; 3 edges"), Failure);
   const Mesh mesh =
-      read_solid(write_stl("closed", spindle(8, 8)), true, 1.5, CellType::tet15, notes);
+      read_solid(write_stl("closed", spindle(8, 8)), {true, 1.5, CellType::tet15}, notes);
   CHECK(quality(mesh).least_jacobian > 0);
+}
+
+TEST_CASE("small holes are filled, whatever their shape, and the advice of the refusal works") {
+  const std::vector<Corners> whole = spindle(16, 20);
+  const double enclosed =
+      enclosed_volume(parse_surface(stl_text(whole), "t.stl", FlatTriangles::allowed));
+  // one triangle; several that meet in a chain; a patch on either side
+  const std::vector<std::vector<std::size_t>> holes = {
+      {40}, {80, 81, 82, 83}, {30, 31, 200, 201, 202}};
+  for (const std::vector<std::size_t>& hole : holes) {
+    CAPTURE(hole.size());
+    std::vector<Corners> body;
+    for (std::size_t t = 0; t < whole.size(); ++t)
+      if (std::find(hole.begin(), hole.end(), t) == hole.end()) body.push_back(whole[t]);
+    const std::string message = refusal(body);
+    const std::size_t at = message.find("seal: ");
+    REQUIRE(at != std::string::npos);
+    const double width = std::stod(message.substr(at + 6));
+    Triangles surface = parse_surface(stl_text(body), "t.stl", FlatTriangles::allowed);
+    const std::size_t before = surface.points.size();
+    for (const Hole& found : holes_of(surface)) {
+      CHECK(found.width <= width);
+      CHECK(fill(found, surface));
+    }
+    require_closed(surface, "t.stl");
+    CHECK(surface.points.size() == before);  // no new points
+    CHECK(enclosed_volume(surface) == near(enclosed, 0.01));
+
+    std::vector<std::string> notes;
+    const std::string path = write_stl("sealed", body);
+    const Mesh mesh = read_solid(path, {true, 1.5, CellType::tet15, width}, notes);
+    CHECK(quality(mesh).least_jacobian > 0);
+    CHECK(says(notes, "filled a hole of "));
+    CHECK_THROWS_WITH_AS((read_solid(path, {true, 1.5, CellType::tet15, 1e-3}, notes)),
+                         doctest::Contains("the surface is open"), Failure);
+  }
+}
+
+TEST_CASE("holes that meet in a point are left open, and a flat one is filled flat") {
+  std::vector<Corners> face = box();
+  face.erase(face.begin(), face.begin() + 2);
+  Triangles surface = parse_surface(stl_text(face), "t.stl", FlatTriangles::allowed);
+  REQUIRE(holes_of(surface).size() == 1);
+  CHECK(fill(holes_of(surface)[0], surface));
+  CHECK(std::abs(enclosed_volume(surface) - 8) < 8e-12);
+  require_closed(surface, "t.stl");
+  // two triangles that share one corner only
+  const std::vector<Corners> body = spindle(16, 20);
+  std::size_t other = 0;
+  const auto shared = [&](std::size_t t) {
+    int n = 0;
+    for (const Vec3& a : body[60])
+      for (const Vec3& b : body[t]) n += (a - b).norm() < 1e-9;
+    return n;
+  };
+  while (other < body.size() && shared(other) != 1) ++other;
+  REQUIRE(other < body.size());
+  std::vector<Corners> touching;
+  for (std::size_t t = 0; t < body.size(); ++t)
+    if (t != 60 && t != other) touching.push_back(body[t]);
+  CHECK(holes_of(parse_surface(stl_text(touching), "t.stl", FlatTriangles::allowed)).empty());
+  CHECK(refusal(touching).find("the surface is open") != std::string::npos);
 }
 
 TEST_CASE("hexahedra of a smooth surface that gmsh folds are split with straight edges") {
@@ -185,7 +249,7 @@ TEST_CASE("hexahedra of a smooth surface that gmsh folds are split with straight
   for (const double edge : {1., 1.5}) {
     CAPTURE(edge);
     std::vector<std::string> notes;
-    const Mesh mesh = read_solid(path, true, edge, CellType::hex8, notes);
+    const Mesh mesh = read_solid(path, {true, edge, CellType::hex8}, notes);
     const Quality found = quality(mesh);
     CHECK(found.least_jacobian > 0);
     CHECK(found.volume < enclosed);
@@ -200,7 +264,7 @@ TEST_CASE("hexahedra of a smooth surface that gmsh folds are split with straight
     // the advice of the note: tetrahedra follow the surface better at the same edge
     std::vector<std::string> notes_of_tetrahedra;
     const Quality tetrahedra =
-        quality(read_solid(path, true, edge, CellType::tet15, notes_of_tetrahedra));
+        quality(read_solid(path, {true, edge, CellType::tet15}, notes_of_tetrahedra));
     CHECK(tetrahedra.least_jacobian > 0);
     CHECK(tetrahedra.volume > found.volume);
     CHECK(tetrahedra.volume < enclosed * (1 + 1e-9));
@@ -210,19 +274,19 @@ TEST_CASE("hexahedra of a smooth surface that gmsh folds are split with straight
 TEST_CASE("a mesh that loses a quarter of the volume is refused, and its advice helps") {
   const std::string path = write_stl("coarse", spindle(16, 20));
   std::vector<std::string> notes;
-  CHECK_THROWS_WITH_AS(read_solid(path, true, 3, CellType::hex8, notes),
+  CHECK_THROWS_WITH_AS((read_solid(path, {true, 3, CellType::hex8}, notes)),
                        doctest::Contains("a smaller edge follows the surface better"), Failure);
-  CHECK(quality(read_solid(path, true, 1, CellType::hex8, notes)).least_jacobian > 0);
+  CHECK(quality(read_solid(path, {true, 1, CellType::hex8}, notes)).least_jacobian > 0);
 }
 
 TEST_CASE("a coarse mesh of tetrahedra states the volume that it loses, a box loses none") {
   std::vector<std::string> notes;
-  read_solid(write_stl("tetrahedra", spindle(16, 20)), true, 3, CellType::tet15, notes);
+  read_solid(write_stl("tetrahedra", spindle(16, 20)), {true, 3, CellType::tet15}, notes);
   CHECK(says(notes, "straight edges cut off what is curved"));
   for (const CellType cells : {CellType::hex8, CellType::tet15}) {
     notes.clear();
-    CHECK(std::abs(quality(read_solid(write_stl("box", box()), true, 1, cells, notes)).volume - 8) <
-          1e-6);
+    CHECK(std::abs(quality(read_solid(write_stl("box", box()), {true, 1, cells}, notes)).volume -
+                   8) < 1e-6);
     CHECK_FALSE(says(notes, "volume"));
     CHECK_FALSE(says(notes, "mm^3"));
   }
