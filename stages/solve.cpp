@@ -143,10 +143,14 @@ RunEnd follow_load_path(const Job<SolveConfig>& job, Observers& observers, Progr
 
 // Vibrations about the state at the end of the path, in the solution and as tables beside it.
 Summaries add_vibration(const Job<SolveConfig>& job, const SolveConfig& config, Run& run,
-                        Recording& recording) {
-  const auto vibration = vibration_of(config, run, job.where);
+                        Observers& observers) {
+  const auto add_derivatives = [&](const Modes& modes, const std::vector<double>& density,
+                                   ModesRecord& record) {
+    observers.sensitivity->add_frequencies(modes, density, record);
+  };
+  const auto vibration = vibration_of(config, run, job.where, add_derivatives);
   if (!vibration) return {};
-  recording.write_vibration(*vibration);
+  observers.recording->write_vibration(*vibration);
   for (const std::string& line : in_words(*vibration, run)) job.say("{}", line);
   if (vibration->modes)
     write_text_file(job.side_file("modes.csv"), csv(columns_of(*vibration->modes)));
@@ -210,7 +214,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
     if (interrupted()) recording.stopped_in_estimate();
     return std::nullopt;
   }
-  const Summaries of_vibration = add_vibration(job, config, run, recording);
+  const Summaries of_vibration = add_vibration(job, config, run, observers);
   during_estimate.reset();
 
   const auto forces = observers.uncertainty->of(end.last);

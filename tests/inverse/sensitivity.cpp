@@ -313,6 +313,51 @@ TEST_CASE("numbers that a scene does not have are refused with those that it has
   CHECK(said("contacts.ball.friction").find("friction above 0") != std::string::npos);
 }
 
+// Frequencies depend on a number through the law, the state and its contact reactions.
+TEST_CASE("derivatives of frequencies are those of whole runs with other numbers") {
+  const std::vector<std::string> keys{"matrix.yeoh.a1", "fibres[0].hgo.c1", "fibres[0].hgo.c2",
+                                      "fibres[0].alpha", "contacts.ball.friction"};
+  const SolveConfig config =
+      test::config_of(block("hex8", "[5, 2, 5]") + "material: " + skin +
+                      ball(0.3, "[{t: 0.5, to: [0, -0.5, 0]}, {t: 1, to: [0.3, -0.5, 0]}]") +
+                      "path: {steps: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n"
+                      "dynamics: {density_kg_m3: 1100}\nmodes: {count: 4}\n" +
+                      listed(keys));
+  const auto modes_of_run = [](const SolveConfig& of, bool with_derivatives) {
+    Run run(test::mesh_in(of), of, of.material, test::nowhere);
+    Sensitivity sensitivity(run, of, test::nowhere);
+    REQUIRE(run.follow(with_derivatives ? sensitivity.along({}) : RunListener{}).path.complete);
+    ModesListener add;
+    if (with_derivatives)
+      add = [&](const Modes& modes, const std::vector<double>& density, ModesRecord& record) {
+        sensitivity.add_frequencies(modes, density, record);
+      };
+    return *vibration_of(of, run, test::nowhere, add)->modes;
+  };
+  const ModesRecord found = modes_of_run(config, true);
+  REQUIRE(found.derivatives.size() == keys.size());
+  const std::vector<double> without = modes_of_run(config, false).frequency;
+  for (std::size_t mode = 0; mode < without.size(); ++mode)
+    CHECK(found.frequency[mode] == near(without[mode], 1e-8));
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    CAPTURE(keys[i]);
+    const double h = keys[i] == "fibres[0].alpha" ? 0.05 : 1e-3 * value_of(config, keys[i]);
+    SolveConfig more = config;
+    SolveConfig less = config;
+    change(more, keys[i], h);
+    change(less, keys[i], -h);
+    const std::vector<double> high = modes_of_run(more, false).frequency;
+    const std::vector<double> low = modes_of_run(less, false).frequency;
+    for (std::size_t mode = 0; mode < found.frequency.size(); ++mode) {
+      CAPTURE(mode);
+      const double difference = (high[mode] - low[mode]) / (2 * h);
+      // of a number that hardly matters, relative to the frequency for a change of 1
+      const double size = 1e-5 * found.frequency[mode] / (1 + value_of(config, keys[i]));
+      CHECK(found.derivatives[i].second[mode] == near(difference, 1e-4, size));
+    }
+  }
+}
+
 TEST_CASE("a run continued from any of its steps has the same derivatives to the last digit") {
   const SolveConfig config =
       test::config_of(block("hex8", "[6, 2, 6]") + "material: " + skin +

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "scene/model/torque.hpp"
 #include "scene/run/step_forces.hpp"
@@ -111,6 +113,62 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
       out.push_back({name, derivative, "-"});
     }
   return out;
+}
+
+// Two states next to the last one, where the number is a little less and a little more: the
+// Rayleigh quotient of a mode is stationary, so its difference is that of the eigenvalue.
+void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>& density,
+                                  ModesRecord& record) {
+  const BodyState now = run_.statics.accepted();
+  const Scene& scene = run_.reduction.scene();
+  const Mesh& mesh = run_.reduction.mesh();
+  const std::vector<Dofs> breaking = run_.reduction.symmetry_breaking_dofs();
+  for (std::size_t i = 0; i < parameters().size(); ++i) {
+    if (parameters_.layer(i) || parameters_.shape(i) || d_last_[i].u.size() != now.u.size())
+      continue;
+    // where forces are linear in the number, its step is as large as a modulus
+    const double h = parameters_.linear(i) ? 1e-4 * parameters_.step(i) : parameters_.step(i);
+    const auto put_at = [&](double by) {
+      BodyState state = now;
+      state.u += by * d_last_[i].u;
+      state.travel += by * d_last_[i].travel;
+      for (std::size_t k = 0; k < d_last_[i].r.size(); ++k)
+        for (std::size_t c = 0; c < d_last_[i].r[k].size(); ++c)
+          state.r[k][c] += by * d_last_[i].r[k][c];
+      if (parameters_.of_laws(i)) {
+        SceneParameters::Laws laws = parameters_.varied(scene, mesh, i, by);
+        run_.body.set_materials(std::move(laws.materials), std::move(laws.directions));
+      }
+      run_.put_at(run_.t(), state, state);
+      run_.body.pressures_from(state.u);
+    };
+    // With less friction than the indenter has, nodes that slip would count as sticking: there the
+    // difference is taken on one side, also of second order.
+    struct Sample {
+      double by, weight;  // weight: over h
+    };
+    std::vector<Sample> samples{{h, 0.5}, {-h, -0.5}};
+    if (!parameters_.of_laws(i)) samples = {{0, -1.5}, {h, 2}, {2 * h, -0.5}};
+    std::vector<double> differences(modes.modes.size(), 0.0);  // of the eigenvalues, over h
+    for (const Sample& sample : samples) {
+      put_at(sample.by);
+      for (std::size_t m = 0; m < modes.modes.size(); ++m)
+        differences[m] +=
+            sample.weight * rayleigh_quotient(run_.body, run_.statics, density, breaking,
+                                              modes.modes[m].kind, modes.modes[m].shape);
+    }
+    std::vector<double> derivative;
+    for (std::size_t m = 0; m < modes.modes.size(); ++m) {
+      // omega = 2 pi f, so d(omega^2) = 8 pi^2 f df
+      const double f = modes.modes[m].frequency();
+      const double of_frequency = 8 * std::numbers::pi * std::numbers::pi * f;
+      derivative.push_back(f > 0 ? differences[m] / h / of_frequency
+                                 : std::numeric_limits<double>::quiet_NaN());
+    }
+    put_at(0);
+    record.derivatives.emplace_back(derivative_name("frequency_Hz", parameters()[i]),
+                                    std::move(derivative));
+  }
 }
 
 // The explicit derivatives of internal forces and energy by each parameter at fixed displacements,

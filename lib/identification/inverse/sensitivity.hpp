@@ -15,6 +15,7 @@
 #include "accuracy/checks/recording.hpp"
 #include "mechanics/solve/state_tangent.hpp"
 #include "scene/model/scene_parameters.hpp"
+#include "scene/run/vibration.hpp"
 
 namespace langer {
 
@@ -35,6 +36,10 @@ class Sensitivity {
   RunListener along(RunListener listener);
   // Before a run is resumed: every step that is kept, in order.
   void kept(const StepRecord& whole);
+
+  // At the end of the path: of the frequencies of these modes, which symmetry of the state does not
+  // mix. Numbers of layers and of shapes of indenters are left out.
+  void add_frequencies(const Modes& modes, const std::vector<double>& density, ModesRecord& record);
 
   Observer observer();  // of a Recording; empty without the key
   std::vector<Summary> summary(const StepRecord& last)

@@ -288,6 +288,13 @@ SparseX FrozenBody::stiffness() {
   return A;
 }
 
+// The columns of P are orthonormal.
+VecX FrozenBody::coordinates(const VecX& u) const {
+  VecX rows(tangent_.dofs.n_free());
+  for (int row = 0; row < tangent_.dofs.n_free(); ++row) rows[row] = u[tangent_.dofs.free[row]];
+  return P_.transpose() * rows;
+}
+
 VecX FrozenBody::displacements(const VecX& q) const {
   const VecX rows = P_ * q;
   VecX u = VecX::Zero(tangent_.dofs.n);

@@ -45,6 +45,7 @@ class FrozenBody {
   const SparseX& mass() const { return M_; }
   // u (3 n) of a vector of the movements that are left; of tied and hanging nodes 0.
   VecX displacements(const VecX& q) const;
+  VecX coordinates(const VecX& u) const;  // q of the movement (3 n), as far as it is possible
 
  private:
   Assembler& body_;

@@ -55,4 +55,15 @@ Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double
   return out;
 }
 
+double rayleigh_quotient(Assembler& body, const Statics& statics,
+                         const std::vector<double>& density, const std::vector<Dofs>& breaking,
+                         int kind, const VecX& shape) {
+  body.begin_small_movements([](const ViscousBranch&) { return 0.0; });
+  const Dofs& dofs = kind == 0 ? body.dofs() : breaking[static_cast<std::size_t>(kind - 1)];
+  FrozenBody frozen(body, statics, density, dofs, kind == 0);
+  const VecX q = frozen.coordinates(shape);
+  const SparseX stiffness = frozen.stiffness();
+  return q.dot(stiffness * q) / q.dot(frozen.mass() * q);
+}
+
 }  // namespace langer

@@ -92,10 +92,12 @@ std::vector<Column> columns_of(const ModesRecord& record) {
     mode.values.push_back(static_cast<double>(i + 1));
     breaks.values.push_back(record.breaks_symmetry[i]);
   }
-  return {std::move(mode),
-          {"frequency", "Hz", record.frequency},
-          {"growth", "1/s", record.growth},
-          std::move(breaks)};
+  std::vector<Column> columns{std::move(mode),
+                              {"frequency", "Hz", record.frequency},
+                              {"growth", "1/s", record.growth},
+                              std::move(breaks)};
+  for (const auto& [name, values] : record.derivatives) columns.push_back({name, "-", values});
+  return columns;
 }
 
 // The names of the last columns contain their units: written by csv_name(), N/mm would be

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/tensor/types.hpp"
@@ -23,6 +24,9 @@ struct ModesRecord {
   std::vector<int> breaks_symmetry;      // 1: a movement that symmetry of the state does not have
   std::vector<std::vector<Vec3>> shape;  // largest movement of a node 1
   bool counted = false;                  // shown complete; not in the file
+  // Derivatives of the frequencies by name, such as d_frequency_Hz_d_matrix_yeoh_a1; not in the
+  // file, but in the table.
+  std::vector<std::pair<std::string, std::vector<double>>> derivatives = {};
 };
 
 struct HarmonicRecord {
@@ -42,7 +46,7 @@ VibrationRecord read_vibration(const h5::Group& root, std::size_t n_nodes);
 // The same of a solution file by its path. Throws Failure(input).
 VibrationRecord read_vibration(const std::string& path);
 
-// mode, frequency_Hz, growth_per_s, breaks_symmetry
+// mode, frequency_Hz, growth_per_s, breaks_symmetry, and the derivatives
 std::vector<Column> columns_of(const ModesRecord& record);
 // frequency_Hz, storage_N_mm, loss_N_mm, phase_deg
 std::vector<Column> columns_of(const HarmonicRecord& record);

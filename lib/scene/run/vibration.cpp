@@ -115,7 +115,8 @@ std::vector<Vec3> whole_shape(const Run& run, const Mode& mode) {
   return out;
 }
 
-ModesRecord modes_record(const SolveConfig& config, Run& run, const std::vector<double>& density) {
+ModesRecord modes_record(const SolveConfig& config, Run& run, const std::vector<double>& density,
+                         const ModesListener& listener) {
   const Modes found =
       modes_of(run.body, run.statics, density, run.reduction.symmetry_breaking_dofs(),
                config.modes->count, config.blas_threads);
@@ -127,6 +128,7 @@ ModesRecord modes_record(const SolveConfig& config, Run& run, const std::vector<
     record.breaks_symmetry.push_back(mode.kind > 0 ? 1 : 0);
     record.shape.push_back(whole_shape(run, mode));
   }
+  if (listener) listener(found, density, record);
   return record;
 }
 
@@ -198,12 +200,13 @@ void check_vibration(const SolveConfig& config, const Run& run, const Run::Where
 }
 
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
-                                            const Run::Where& where) {
+                                            const Run::Where& where,
+                                            const ModesListener& listener) {
   if (!config.modes && !config.harmonic) return std::nullopt;
   const std::vector<double> density = checked_densities(config, run.mesh, where);
   VibrationRecord record;
   try {
-    if (config.modes) record.modes = modes_record(config, run, density);
+    if (config.modes) record.modes = modes_record(config, run, density, listener);
     if (config.harmonic) record.harmonic = harmonic_record(config, run, density, where);
   } catch (const std::invalid_argument& problem) {
     refuse(where, "modes", std::string("found ") + problem.what(),
@@ -247,6 +250,11 @@ std::vector<Summary> summary_of(const VibrationRecord& record) {
   if (record.modes) {
     for (std::size_t i = 0; i < record.modes->frequency.size(); ++i)
       out.push_back({fmt::format("frequency_{}", i + 1), record.modes->frequency[i], "Hz"});
+    for (const auto& [name, values] : record.modes->derivatives) {
+      const std::string of = name.substr(std::string("d_frequency").size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+        out.push_back({fmt::format("d_frequency_{}{}", i + 1, of), values[i], "-"});
+    }
   }
   if (record.harmonic && !record.harmonic->frequency.empty()) {
     const HarmonicRecord& h = *record.harmonic;

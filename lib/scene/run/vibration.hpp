@@ -1,11 +1,13 @@
 // Small vibrations about the state at the end of a run, as the config asks for them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanics/vibration/frozen_body.hpp"
+#include "mechanics/vibration/modes.hpp"
 #include "results/store/vibration_record.hpp"
 #include "scene/run/run.hpp"
 
@@ -19,10 +21,15 @@ Driver driver_of(const SolveConfig& config, const Run& run, const Run::Where& wh
 // Failure(config).
 void check_vibration(const SolveConfig& config, const Run& run, const Run::Where& where);
 
+// Sees the modes of the body that is solved, and may add to their record.
+using ModesListener =
+    std::function<void(const Modes&, const std::vector<double>& density, ModesRecord& record)>;
+
 // Nothing where the config asks for none. Of the run's accepted state; Failure(config) and
 // Failure(not_converged) as the above and mechanics/vibration say.
 std::optional<VibrationRecord> vibration_of(const SolveConfig& config, Run& run,
-                                            const Run::Where& where);
+                                            const Run::Where& where,
+                                            const ModesListener& listener = {});
 
 // What langer-solve prints, and the numbers of its summary.
 std::vector<std::string> in_words(const VibrationRecord& record, const Run& run);
