@@ -15,6 +15,7 @@
 //   |u - u_n|^2 + nodes |c - c_n|^2 = L^2
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/tensor/dense.hpp"
@@ -27,6 +28,60 @@ namespace {
 
 constexpr double arc_reached = 1e-7;     // of its length
 constexpr double volume_reached = 1e-9;  // of the largest volume that is given
+
+// A movement of the body, with contact, for trial values of the unknowns of the border.
+struct BorderPoint {
+  VecX x;           // change of t, and under force control of the travel [mm]
+  VecX miss;        // of their equations
+  double open = 0;  // the larger miss, that of the force relative to the force
+  VecX du;
+  Reactions r;
+};
+using MoveAt = std::function<std::optional<BorderPoint>(const VecX& x)>;
+
+// Where no equation is missed, by Newton's method from 0. Its matrix is made of differences over
+// `probe`, and corrected by Broyden's update where the contact changes on the way. Nothing where
+// the next correction would not find the rest.
+std::optional<BorderPoint> root_of(const MoveAt& at, const VecX& probe) {
+  constexpr double exact = 1e-11;
+  constexpr double enough = 1e-3;
+  constexpr int most = 30;
+  const Eigen::Index n = probe.size();
+  std::optional<BorderPoint> here = at(VecX::Zero(n));
+  MatX slopes(n, n);
+  bool known = false;      // the slopes
+  bool of_before = false;  // they are corrected ones
+  for (int i = 0; i < most && here && here->open > exact; ++i) {
+    for (Eigen::Index k = 0; k < n && !known; ++k) {
+      VecX x = here->x;
+      x[k] += probe[k];
+      const std::optional<BorderPoint> moved = at(x);
+      if (!moved) return std::nullopt;
+      slopes.col(k) = (moved->miss - here->miss) / probe[k];
+    }
+    of_before = std::exchange(known, true);
+    const VecX step = Lu(slopes).solve(-here->miss);
+    if (!step.allFinite()) break;
+    std::optional<BorderPoint> next;
+    double share = 1;
+    for (; share > 0.02; share *= 0.5) {
+      next = at(here->x + share * step);
+      if (next && next->miss.norm() < (1 - 0.1 * share) * here->miss.norm()) break;
+    }
+    if (share > 0.02) {
+      const VecX taken = next->x - here->x;
+      const VecX unforeseen = next->miss - here->miss - slopes * taken;
+      slopes += unforeseen * taken.transpose() / taken.squaredNorm();
+      here = std::move(next);
+    } else if (of_before) {
+      known = false;
+    } else {
+      break;
+    }
+  }
+  if (here && here->open <= enough) return here;
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -236,12 +291,8 @@ void Statics::solve_border(VecX& move) {
 // The unknowns of the border are the change of t and, under force control, that of the travel.
 // Their equations are the length of the arc and the given force. For given unknowns the contact
 // problem is that of an indenter that is moved, which stays regular where the force has an
-// extremum. Newton's method with a matrix of differences, which Broyden's update corrects where the
-// contact changes.
+// extremum.
 std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
-  constexpr double exact = 1e-11;
-  constexpr double enough = 1e-3;  // the next correction finds the rest
-  constexpr int most = 30;
   const double t = t_;
   const double travel = travel_;
   const double size = arc_->size;
@@ -250,13 +301,6 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
   const VecX moved = u_ - now_.u;
   const std::vector<Vec3> moved_c = moves_of_indenters(now_.t, now_.travel, t_, travel_);
   const double squared = arc_product(moved, moved_c, moved, moved_c);
-  struct Point {
-    VecX x;  // change of t, and of the travel [mm]
-    VecX miss;
-    double open = 0;  // the larger miss, that of the force relative to the force
-    VecX du;
-    Reactions r;
-  };
   // The linearised equation of the arc, relative to its squared length. The first correction goes
   // as far as the arc in the direction of the last increment, and at the beginning of the path in
   // any direction.
@@ -274,7 +318,8 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
   double least_force = 0;  // to which the miss of the force is compared at least [N]
   if (pushed)
     least_force = std::abs(controlled()->control->force.value) * std::max(std::abs(t), probe[0]);
-  const auto add_miss_of_force = [&](Point& point) {
+  if (least_force == 0) least_force = 1;
+  const auto add_miss_of_force = [&](BorderPoint& point) {
     const ForceControl& control = *controlled()->control;
     double borne = 0;
     for (const Vec3& r : r_next_[static_cast<std::size_t>(controlled_)])
@@ -284,13 +329,13 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
     const double largest = std::max({std::abs(borne), std::abs(given), 1e-300});
     point.open = std::max(point.open, std::abs(borne - given) / largest);
   };
-  const auto at = [&](const VecX& x) -> std::optional<Point> {
+  const auto at = [&](const VecX& x) -> std::optional<BorderPoint> {
     t_ = t + x[0];
     if (pushed) travel_ = travel + x[1];
     t_next_ = 0;
-    std::optional<Point> point;
+    std::optional<BorderPoint> point;
     if (const std::optional<VecX> move = move_with_contact(rhs + x[0] * columns_.front())) {
-      point = Point{x, VecX(n), 0, with_prescribed_dofs(*move), r_next_};
+      point = BorderPoint{x, VecX(n), 0, with_prescribed_dofs(*move), r_next_};
       point->miss[0] = miss_of_arc(point->du, moves_of_indenters(t, travel, t_, travel_));
       point->open = std::abs(point->miss[0]);
       if (pushed) add_miss_of_force(*point);
@@ -300,42 +345,11 @@ std::optional<VecX> Statics::solve_arc_with_contact(const VecX& rhs) {
     return point;
   };
 
-  std::optional<Point> here = at(VecX::Zero(n));
-  MatX slopes(n, n);
-  bool current = false;  // slopes are differences at `here`
-  for (int i = 0; i < most && here && here->open > exact; ++i) {
-    for (Eigen::Index k = 0; k < n && !current; ++k) {
-      VecX x = here->x;
-      x[k] += probe[k];
-      const std::optional<Point> beside = at(x);
-      if (!beside) return std::nullopt;
-      slopes.col(k) = (beside->miss - here->miss) / probe[k];
-    }
-    const bool renewed = std::exchange(current, true) == false;
-    const Lu factors(slopes);
-    const VecX step = factors.solve(-here->miss);
-    if (!step.allFinite()) break;
-    std::optional<Point> next;
-    double share = 1;
-    for (; share > 0.02; share *= 0.5) {
-      next = at(here->x + share * step);
-      if (next && next->miss.norm() < (1 - 0.1 * share) * here->miss.norm()) break;
-    }
-    if (share > 0.02) {
-      const VecX taken = next->x - here->x;
-      slopes +=
-          (next->miss - here->miss - slopes * taken) * taken.transpose() / taken.squaredNorm();
-      here = std::move(next);
-    } else if (renewed) {
-      break;
-    } else {
-      current = false;
-    }
-  }
-  if (!here || here->open > enough) return std::nullopt;
+  const std::optional<BorderPoint> here = root_of(at, probe);
+  if (!here) return std::nullopt;
   t_next_ = here->x[0];
   travel_next_ = pushed ? here->x[1] : 0;
-  r_next_ = std::move(here->r);
+  r_next_ = here->r;
   return here->du;
 }
 
