@@ -378,9 +378,36 @@ StepState pictured_state(const Solution& solution, const ContactStates& contacts
   return state;
 }
 
+StepState moved_along(const Solution& solution, const std::vector<Vec3>& shape, double amplitude,
+                      StepState state) {
+  const double size = bounding_box(solution.body.mesh().X).size().norm();
+  for (std::size_t i = 0; i < state.u.size(); ++i) state.u[i] += amplitude * size * shape[i];
+  return state;
+}
+
+// The state before the first critical point, or the one that is asked for, with the mode of this
+// point at its largest movement.
+StepState with_critical_mode(const Job<PostConfig>& job, const Solution& solution,
+                             const std::string& key, const RenderChoice& choice, StepState state) {
+  const VibrationRecord record = solution.reader.vibration();
+  if (!record.critical)
+    refuse(job, {{key + ".critical", "the path has no critical point with a mode",
+                  "a limit point or a bifurcation",
+                  "`langer-solve` names it as it ends, where stability is checked"}});
+  if (choice.step == RenderChoice{}.step) {
+    int before = 0;  // row 0 is unloaded
+    while (before < solution.reader.n_steps() &&
+           solution.reader.step(before).t <= record.critical->t)
+      ++before;
+    state = state_of(solution.record(before));
+  }
+  return moved_along(solution, record.critical->shape, choice.amplitude, std::move(state));
+}
+
 // The state with a natural vibration at its largest movement added to it.
 StepState with_mode(const Job<PostConfig>& job, const Solution& solution, const std::string& key,
                     const RenderChoice& choice, StepState state) {
+  if (choice.critical) return with_critical_mode(job, solution, key, choice, std::move(state));
   if (!choice.mode) return state;
   const VibrationRecord vibration = solution.reader.vibration();
   const std::size_t mode = static_cast<std::size_t>(*choice.mode);
@@ -390,10 +417,8 @@ StepState with_mode(const Job<PostConfig>& job, const Solution& solution, const 
     refuse(job,
            {{key + ".mode", fmt::format("found {}, and the solution has {} modes", mode, known),
              "a mode of the solution", "the key `modes` of the solve config computes them"}});
-  const double size = bounding_box(solution.body.mesh().X).size().norm();
-  const std::vector<Vec3>& shape = vibration.modes->shape[mode - 1];
-  for (std::size_t i = 0; i < state.u.size(); ++i) state.u[i] += choice.amplitude * size * shape[i];
-  return state;
+  return moved_along(solution, vibration.modes->shape[mode - 1], choice.amplitude,
+                     std::move(state));
 }
 
 // The content of curves.h5: the shown columns, a curve of each column over the first one, maps of

@@ -40,3 +40,15 @@ run(0 ${BIN}/langer-solve film.yaml -o stable.h5 --json --quiet --set "loads[0].
 if(said MATCHES "critical" OR EXISTS ${WORK}/stable_critical.csv)
   message(FATAL_ERROR "a stable body has a critical point:\n${said}")
 endif()
+
+# The mode of a critical point is drawn about the state before it; a stable path has none.
+run(0 ${BIN}/langer-solve film.yaml -o through.h5 --quiet)
+file(WRITE ${WORK}/post.yaml "columns: [{quantity: t, name: t}, {quantity: reaction_x, at: x_max, name: force}]
+renders: {wave: {critical: true, amplitude: 0.05}}
+")
+run(0 ${BIN}/langer-post post.yaml --solution through.h5 -o drawn.h5)
+if(NOT EXISTS ${WORK}/wave.svg)
+  message(FATAL_ERROR "no picture of the mode:\n${said}")
+endif()
+run(2 ${BIN}/langer-post post.yaml --solution stable.h5 -o none.h5)
+expect_said("renders.wave.critical: the path has no critical point with a mode")

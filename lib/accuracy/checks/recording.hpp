@@ -54,6 +54,9 @@ class Recording {
       all.push_back({"critical_t", critical->t, "-"});
       all.push_back({"critical_is_bifurcation", critical->kind == "bifurcation" ? 1.0 : 0.0, "-"});
       if (critical->angle) all.push_back({"critical_wave_angle", *critical->angle, "deg"});
+      if (!critical->mode.empty())
+        file_.write_vibration(
+            {{}, {}, CriticalRecord{critical->t, critical->kind, critical->mode}});
     }
     file_.finish(continues() ? std::nullopt : std::optional(cost_so_far()), all, found_later);
   }

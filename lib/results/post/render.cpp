@@ -221,6 +221,8 @@ std::vector<Complaint> RenderChoice::complaints() const {
         {"field", line_of(*field).word, "a quantity of nodes or points, as u_y or von_mises", ""});
   if (range && !((*range)[0] < (*range)[1]))
     found.push_back({"range", "its ends are not ascending", "[low, high]", ""});
+  if (critical && mode)
+    found.push_back({"critical", "found together with mode", "one of the two", ""});
   return found;
 }
 

@@ -51,6 +51,7 @@ struct RenderChoice {
   bool outline = false, actions = false;
   std::string title;
   std::optional<int> mode;
+  bool critical = false;
   double amplitude = 0.1;
   static void fields(auto& v) {
     v(&RenderChoice::field, "field", unit::none,
@@ -74,6 +75,8 @@ struct RenderChoice {
     v(&RenderChoice::mode, "mode", unit::none,
       "draw this natural vibration about the last state (modes in the solve config), from 1 on",
       at_least(1));
+    v(&RenderChoice::critical, "critical", unit::none,
+      "draw the mode of the first critical point of the path; step: none is the state before it");
     v(&RenderChoice::amplitude, "amplitude", unit::none,
       "of a mode: its largest movement, over the size of the body", between(0, 1));
   }

@@ -60,6 +60,13 @@ ModesRecord read_modes(const h5::Group& group, std::size_t n_nodes) {
 
 void write_vibration(const h5::Group& root, const VibrationRecord& record) {
   if (record.modes) write_modes(root.make_group("modes"), *record.modes);
+  if (record.critical) {
+    const h5::Group critical = root.make_group("critical");
+    critical.attribute("kind", record.critical->kind);
+    critical.write<double>("t", {1}, std::vector{record.critical->t}, "-");
+    critical.write<double>("shape", {record.critical->shape.size(), 3},
+                           components_of_all({record.critical->shape}), "-");
+  }
   if (!record.harmonic) return;
   const HarmonicRecord& harmonic = *record.harmonic;
   const h5::Group group = root.make_group("harmonic");
@@ -73,6 +80,15 @@ void write_vibration(const h5::Group& root, const VibrationRecord& record) {
 VibrationRecord read_vibration(const h5::Group& root, std::size_t n_nodes) {
   VibrationRecord record;
   if (root.has("modes")) record.modes = read_modes(root.group("modes"), n_nodes);
+  if (root.has("critical")) {
+    const h5::Group group = root.group("critical");
+    CriticalRecord& critical = record.critical.emplace();
+    critical.kind = group.text_attribute("kind");
+    critical.t = read_in_unit(group, "t", {1}, "-").front();
+    const std::vector<double> shape = read_in_unit(group, "shape", {n_nodes, 3}, "-");
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      critical.shape.push_back(Eigen::Map<const Vec3>(&shape[3 * i]));
+  }
   if (!root.has("harmonic")) return record;
   const h5::Group group = root.group("harmonic");
   HarmonicRecord& harmonic = record.harmonic.emplace();

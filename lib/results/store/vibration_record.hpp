@@ -1,6 +1,7 @@
 // Vibrations about the last state of a solution, as they stand in solution.h5 and in CSV.
 //   /modes      frequency [Hz], growth [1/s], breaks_symmetry (0, 1), shape (modes, nodes, 3)
 //   /harmonic   frequency [Hz], storage, loss [N/mm]
+//   /critical   t, kind, shape (nodes, 3), of a path that has a critical point with a mode
 // docs/schema.md
 #pragma once
 
@@ -35,9 +36,17 @@ struct HarmonicRecord {
   std::vector<double> storage, loss;  // [N/mm]
 };
 
+// The first critical point of the path.
+struct CriticalRecord {
+  double t = 0;
+  std::string kind;         // accuracy/checks/critical_point.hpp
+  std::vector<Vec3> shape;  // its mode, largest movement of a node 1
+};
+
 struct VibrationRecord {
   std::optional<ModesRecord> modes;
   std::optional<HarmonicRecord> harmonic;
+  std::optional<CriticalRecord> critical = {};
 };
 
 void write_vibration(const h5::Group& root, const VibrationRecord& record);
