@@ -6,9 +6,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
 
+#include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/mesh/raise.hpp"
 #include "report/labels.hpp"
 #include "report/packed.hpp"
@@ -277,6 +279,60 @@ struct States {
 
 bool needs_contact(const ShownField& f) { return is<OfContact>(line_of(f.quantity)); }
 
+// A body without its states: places of the chosen nodes, and the facets of its surface.
+struct Outside {
+  std::vector<float> X;
+  std::vector<std::int32_t> facets;  // numbers of chosen nodes
+
+  Outside(const Mesh& mesh, const std::vector<std::array<int, 4>>& surface, const Chosen& chosen) {
+    for (const int node : chosen.nodes)
+      for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));
+    for (const auto& facet : surface)
+      for (int node : facet) facets.push_back(chosen.place[node]);
+  }
+};
+
+// So that the largest displacement is the largest 16-bit integer [mm].
+double step_of(const std::vector<std::vector<double>>& u) {
+  double largest = 0;
+  for (const auto& state : u)
+    for (double v : state) largest = std::max(largest, std::abs(v));
+  if (largest > 0) return largest / 32767;
+  return 1;
+}
+
+// A movement that swings about a state.
+struct Swing {
+  std::string name;
+  const std::vector<Vec3>* shape = nullptr;  // largest movement 1
+  std::vector<Vec3> about;                   // displacements of the state [mm]
+  double t = 0;                              // of it
+};
+
+std::vector<Vec3> last_before(const SolutionReader& solution, double t) {
+  std::vector<Vec3> u(solution.header().mesh.X.size(), Vec3::Zero());
+  for (int i = 0; i < solution.n_steps(); ++i) {
+    StepRecord step = solution.step(i);
+    if (step.t > t) break;
+    u = std::move(step.u);
+  }
+  return u;
+}
+
+std::vector<Swing> swings_of(const SolutionReader& solution, const VibrationRecord& record) {
+  std::vector<Swing> swings;
+  if (record.critical)
+    swings.push_back({fmt::format("{} at t = {:.4g}", record.critical->kind, record.critical->t),
+                      &record.critical->shape, last_before(solution, record.critical->t),
+                      record.critical->t});
+  if (!record.modes) return swings;
+  const double end = solution.n_steps() > 0 ? solution.step(solution.n_steps() - 1).t : 0;
+  for (std::size_t i = 0; i < record.modes->shape.size(); ++i)
+    swings.push_back({fmt::format("mode {}, {:.4g} Hz", i + 1, record.modes->frequency[i]),
+                      &record.modes->shape[i], last_before(solution, end), end});
+  return swings;
+}
+
 // Evaluates the states `rows`, and adds the values of the fields in each of them.
 States states_of(const SolutionReader& solution, Body& body, const Chosen& chosen,
                  const std::vector<int>& rows, StressAt stress, const ContactStates& contacts,
@@ -354,18 +410,9 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   const States at = states_of(solution, body, chosen, rows, config.stress, contacts, fields);
 
   // One scale for the displacements of all states, so that the page can interpolate between them.
-  double largest = 0;
-  for (const auto& state : at.u)
-    for (double v : state) largest = std::max(largest, std::abs(v));
-  double step = 1;  // [mm], so that the largest displacement is the largest 16-bit integer
-  if (largest > 0) step = largest / 32767;
-  // Node numbers in the page are those of the chosen nodes.
-  std::vector<float> X;
-  for (const int node : chosen.nodes)
-    for (double x : mesh.X[node]) X.push_back(static_cast<float>(x));
-  std::vector<std::int32_t> facets, cell_nodes;
-  for (const auto& facet : surface)
-    for (int node : facet) facets.push_back(chosen.place[node]);
+  const double step = step_of(at.u);
+  const Outside shown(mesh, surface, chosen);
+  std::vector<std::int32_t> cell_nodes;
   Json glyphs, connectivity;
   if (cells) {
     for (int node : between_nodes(mesh).connectivity) cell_nodes.push_back(chosen.place[node]);
@@ -383,14 +430,62 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
                  {"n_cells", number(mesh.n_cells())},
                  {"n_nodes", number(mesh.n_nodes())},
                  {"n_states", number(solution.n_steps() + 1)},
-                 {"X", packed(X)},
-                 {"facets", packed(facets)},
+                 {"X", packed(shown.X)},
+                 {"facets", packed(shown.facets)},
                  {"states", list(at.shown)},
                  {"step", number(step)},
                  {"u", moves_view(at.u, step)},
                  {"fields", fields_view(fields)},
                  {"glyphs", glyphs},
                  {"indenters", indenters_view(solution, at.t)}});
+}
+
+std::vector<Json> mode_views(const std::string& label, const SolutionReader& solution,
+                             double budget) {
+  constexpr int phases = 16;
+  constexpr double amplitude = 0.1;  // of the size of the body
+  const VibrationRecord record = solution.vibration();
+  const Mesh& mesh = solution.header().mesh;
+  const auto surface =
+      outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));
+  const Chosen chosen(mesh, surface, false);
+  const Outside shown(mesh, surface, chosen);
+  const double size = bounding_box(mesh.X).size().norm();
+  std::vector<Json> views;
+  for (const Swing& swing : swings_of(solution, record)) {
+    std::vector<std::vector<double>> u;
+    std::vector<Json> states;
+    for (int phase = 0; phase < phases; ++phase) {
+      const double part = amplitude * size * std::sin(2 * std::numbers::pi * phase / phases);
+      auto& here = u.emplace_back();
+      for (const int node : chosen.nodes) {
+        const Vec3 moved = swing.about[static_cast<std::size_t>(node)] +
+                           part * (*swing.shape)[static_cast<std::size_t>(node)];
+        here.insert(here.end(), moved.begin(), moved.end());
+      }
+      states.push_back(
+          object({{"row", number(phase)}, {"t", number(swing.t)}, {"u_ind", numbers({0, 0, 0})}}));
+    }
+    const double step = step_of(u);
+    Json view = object({{"label", words(label + ": " + swing.name)},
+                        {"cells", Json{}},
+                        {"n_cells", number(mesh.n_cells())},
+                        {"n_nodes", number(mesh.n_nodes())},
+                        {"n_states", number(phases)},
+                        {"X", packed(shown.X)},
+                        {"facets", packed(shown.facets)},
+                        {"states", list(states)},
+                        {"step", number(step)},
+                        {"u", moves_view(u, step)},
+                        {"fields", list(std::vector<Json>{})},
+                        {"glyphs", Json{}},
+                        {"indenters", object({{"shown", list(std::vector<Json>{})},
+                                              {"missing", list(std::vector<Json>{})}})}});
+    budget -= static_cast<double>(view.text.size());
+    if (budget < 0) break;
+    views.push_back(std::move(view));
+  }
+  return views;
 }
 
 }  // namespace langer::report

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "report/json.hpp"
 #include "report/report_config.hpp"
@@ -18,5 +19,11 @@ namespace langer::report {
 // states first, then only the surface.
 Json body_view(const std::string& label, const SolutionReader& solution, const std::string& path,
                const ReportConfig& config, double budget);
+
+// The modes that a solution holds, each as a body of its own whose states are one oscillation: that
+// of the first critical point, and natural vibrations. Surfaces only, and as many modes as the
+// budget has room for.
+std::vector<Json> mode_views(const std::string& label, const SolutionReader& solution,
+                             double budget);
 
 }  // namespace langer::report

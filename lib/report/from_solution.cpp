@@ -263,6 +263,7 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
                    const ReportConfig& config) {
   const double budget = 1e6 * config.megabytes - static_cast<double>(bytes_without_data());
   std::map<std::string, Chart> charts;
+  std::vector<Json> modes;
   for (const Source& source : sources) {
     const SolutionReader solution(source.path);
     const h5::File file = h5::File::open(source.path);
@@ -304,10 +305,14 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
       chart.series.push_back({source.label, history.at("t"), values, false});
     }
     add_vibration(add, charts, source, solution.vibration());
-    if (has_three())
-      page.bodies.push_back(body_view(source.label, solution, source.path, config,
-                                      0.9 * budget / static_cast<double>(sources.size())));
+    if (!has_three()) continue;
+    const double share = budget / static_cast<double>(sources.size());
+    page.bodies.push_back(body_view(source.label, solution, source.path, config, 0.9 * share));
+    for (Json& mode : mode_views(source.label, solution, 0.08 * share))
+      modes.push_back(std::move(mode));
   }
+  // behind the bodies, of which the page shows the first
+  for (Json& mode : modes) page.bodies.push_back(std::move(mode));
   for (auto& [name, chart] : charts) page.charts.push_back(std::move(chart));
 }
 
