@@ -16,18 +16,8 @@
 
 namespace langer {
 
-namespace {
-
-using Edge = std::pair<int, int>;  // points, the smaller first
-
-struct Use {
-  int forward = 0;   // triangles that run from the first point to the second
-  int backward = 0;  // and the other way
-};
-
-// How often, and in which direction, the triangles use each edge.
-std::map<Edge, Use> edges_of(const Triangles& surface) {
-  std::map<Edge, Use> edges;
+std::map<Edge, EdgeUse> edges_of(const Triangles& surface) {
+  std::map<Edge, EdgeUse> edges;
   for (const std::array<int, 3>& triangle : surface.corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       const int from = triangle[k];
@@ -40,6 +30,8 @@ std::map<Edge, Use> edges_of(const Triangles& surface) {
   }
   return edges;
 }
+
+namespace {
 
 // The middles of the first edges, for a message.
 std::string places(const Triangles& surface, const std::vector<Edge>& edges) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "meshing/closed_surface.hpp"
+
 namespace langer {
 
 namespace {
@@ -33,15 +35,14 @@ Hole hole_through(const Triangles& surface, std::vector<int> points) {
 }  // namespace
 
 std::vector<Hole> holes_of(const Triangles& surface) {
-  // Half edges that no triangle answers. One that fills the hole runs the other way.
-  std::set<std::pair<int, int>> halves;
-  for (const std::array<int, 3>& corners : surface.corners)
-    for (std::size_t k = 0; k < 3; ++k) halves.insert({corners[k], corners[(k + 1) % 3]});
+  // A triangle that fills the hole runs through its edges the other way.
   std::map<int, int> next;
   std::set<int> shared;  // points of several chains
-  for (const auto& [from, to] : halves) {
-    if (halves.contains({to, from})) continue;
-    if (!next.emplace(to, from).second) shared.insert(to);
+  for (const auto& [edge, use] : edges_of(surface)) {
+    if (use.forward + use.backward != 1) continue;
+    auto [from, to] = edge;
+    if (use.forward == 1) std::swap(from, to);
+    if (!next.emplace(from, to).second) shared.insert(from);
   }
   std::vector<Hole> holes;
   while (!next.empty()) {

@@ -223,6 +223,10 @@ TEST_CASE("holes that meet in a point are left open, and a flat one is filled fl
   CHECK(fill(holes_of(surface)[0], surface));
   CHECK(std::abs(enclosed_volume(surface) - 8) < 8e-12);
   require_closed(surface, "t.stl");
+  // a triangle that is turned is no hole
+  std::vector<Corners> turned = box();
+  std::swap(turned[4][0], turned[4][1]);
+  CHECK(holes_of(parse_surface(stl_text(turned), "t.stl", FlatTriangles::allowed)).empty());
   // two triangles that share one corner only
   const std::vector<Corners> body = spindle(16, 20);
   std::size_t other = 0;
