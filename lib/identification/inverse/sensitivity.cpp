@@ -152,10 +152,9 @@ void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>&
     std::vector<double> differences(modes.modes.size(), 0.0);  // of the eigenvalues, over h
     for (const Sample& sample : samples) {
       put_at(sample.by);
-      for (std::size_t m = 0; m < modes.modes.size(); ++m)
-        differences[m] +=
-            sample.weight * rayleigh_quotient(run_.body, run_.statics, density, breaking,
-                                              modes.modes[m].kind, modes.modes[m].shape);
+      const std::vector<double> found =
+          rayleigh_quotients(run_.body, run_.statics, density, breaking, modes.modes);
+      for (std::size_t m = 0; m < found.size(); ++m) differences[m] += sample.weight * found[m];
     }
     std::vector<double> derivative;
     for (std::size_t m = 0; m < modes.modes.size(); ++m) {

@@ -55,15 +55,28 @@ Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double
   return out;
 }
 
-double rayleigh_quotient(Assembler& body, const Statics& statics,
-                         const std::vector<double>& density, const std::vector<Dofs>& breaking,
-                         int kind, const VecX& shape) {
+std::vector<double> rayleigh_quotients(Assembler& body, const Statics& statics,
+                                       const std::vector<double>& density,
+                                       const std::vector<Dofs>& breaking,
+                                       const std::vector<Mode>& modes) {
   body.begin_small_movements([](const ViscousBranch&) { return 0.0; });
-  const Dofs& dofs = kind == 0 ? body.dofs() : breaking[static_cast<std::size_t>(kind - 1)];
-  FrozenBody frozen(body, statics, density, dofs, kind == 0);
-  const VecX q = frozen.coordinates(shape);
-  const SparseX stiffness = frozen.stiffness();
-  return q.dot(stiffness * q) / q.dot(frozen.mass() * q);
+  std::vector<double> quotients(modes.size());
+  for (std::size_t kind = 0; kind <= breaking.size(); ++kind) {
+    const auto is_of_kind = [&](const Mode& mode) {
+      return mode.kind == static_cast<int>(kind);
+    };
+    if (std::ranges::none_of(modes, is_of_kind)) continue;
+    const bool symmetric = kind == 0;
+    FrozenBody frozen(body, statics, density, symmetric ? body.dofs() : breaking[kind - 1],
+                      symmetric);
+    const SparseX stiffness = frozen.stiffness();
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      if (!is_of_kind(modes[i])) continue;
+      const VecX q = frozen.coordinates(modes[i].shape);
+      quotients[i] = q.dot(stiffness * q) / q.dot(frozen.mass() * q);
+    }
+  }
+  return quotients;
 }
 
 }  // namespace langer

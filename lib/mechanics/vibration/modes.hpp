@@ -38,11 +38,11 @@ struct Modes {
 Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double>& density,
                const std::vector<Dofs>& breaking, int count, int threads = 1);
 
-// omega^2 of a given movement about an accepted state, as modes_of() has it of its modes. Next to a
-// mode it is stationary, so its change with the state or a number of the material is that of the
-// mode. kind: of Mode.
-double rayleigh_quotient(Assembler& body, const Statics& statics,
-                         const std::vector<double>& density, const std::vector<Dofs>& breaking,
-                         int kind, const VecX& shape);
+// omega^2 of the shapes of modes of another state, about the accepted one. Next to a mode it is
+// stationary, so its change with the state or a number of the material is that of the mode.
+std::vector<double> rayleigh_quotients(Assembler& body, const Statics& statics,
+                                       const std::vector<double>& density,
+                                       const std::vector<Dofs>& breaking,
+                                       const std::vector<Mode>& modes);
 
 }  // namespace langer
