@@ -394,13 +394,8 @@ StepState with_critical_mode(const Job<PostConfig>& job, const Solution& solutio
     refuse(job, {{key + ".critical", "the path has no critical point with a mode",
                   "a limit point or a bifurcation",
                   "`langer-solve` names it as it ends, where stability is checked"}});
-  if (choice.step == RenderChoice{}.step) {
-    int before = 0;  // row 0 is unloaded
-    while (before < solution.reader.n_steps() &&
-           solution.reader.step(before).t <= record.critical->t)
-      ++before;
-    state = state_of(solution.record(before));
-  }
+  if (choice.step == RenderChoice{}.step)
+    state = state_of(solution.record(steps_until(solution.reader, record.critical->t)));
   return moved_along(solution, record.critical->shape, choice.amplitude, std::move(state));
 }
 

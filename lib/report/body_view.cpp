@@ -309,27 +309,23 @@ struct Swing {
   double t = 0;                              // of it
 };
 
-std::vector<Vec3> last_before(const SolutionReader& solution, double t) {
-  std::vector<Vec3> u(solution.header().mesh.X.size(), Vec3::Zero());
-  for (int i = 0; i < solution.n_steps(); ++i) {
-    StepRecord step = solution.step(i);
-    if (step.t > t) break;
-    u = std::move(step.u);
-  }
-  return u;
-}
-
 std::vector<Swing> swings_of(const SolutionReader& solution, const VibrationRecord& record) {
+  // row 0 is unloaded
+  const auto about = [&](int row) {
+    StepRecord state;
+    state.u.assign(solution.header().mesh.X.size(), Vec3::Zero());
+    if (row > 0) state = solution.step(row - 1);
+    return state;
+  };
   std::vector<Swing> swings;
-  if (record.critical)
-    swings.push_back({fmt::format("{} at t = {:.4g}", record.critical->kind, record.critical->t),
-                      &record.critical->shape, last_before(solution, record.critical->t),
-                      record.critical->t});
+  if (const auto& critical = record.critical)
+    swings.push_back({fmt::format("{} at t = {:.4g}", critical->kind, critical->t),
+                      &critical->shape, about(steps_until(solution, critical->t)).u, critical->t});
   if (!record.modes) return swings;
-  const double end = solution.n_steps() > 0 ? solution.step(solution.n_steps() - 1).t : 0;
+  const StepRecord last = about(solution.n_steps());
   for (std::size_t i = 0; i < record.modes->shape.size(); ++i)
     swings.push_back({fmt::format("mode {}, {:.4g} Hz", i + 1, record.modes->frequency[i]),
-                      &record.modes->shape[i], last_before(solution, end), end});
+                      &record.modes->shape[i], last.u, last.t});
   return swings;
 }
 
@@ -441,10 +437,10 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
 }
 
 std::vector<Json> mode_views(const std::string& label, const SolutionReader& solution,
-                             double budget) {
+                             const VibrationRecord& record, double budget) {
+  if (!record.critical && !record.modes) return {};
   constexpr int phases = 16;
   constexpr double amplitude = 0.1;  // of the size of the body
-  const VibrationRecord record = solution.vibration();
   const Mesh& mesh = solution.header().mesh;
   const auto surface =
       outer_surface(mesh, std::vector<bool>(static_cast<std::size_t>(mesh.n_cells()), true));

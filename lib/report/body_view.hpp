@@ -24,6 +24,6 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
 // of the first critical point, and natural vibrations. Surfaces only, and as many modes as the
 // budget has room for.
 std::vector<Json> mode_views(const std::string& label, const SolutionReader& solution,
-                             double budget);
+                             const VibrationRecord& record, double budget);
 
 }  // namespace langer::report

@@ -304,11 +304,12 @@ void add_solutions(ReportPage& page, const std::vector<Source>& sources,
       chart.ordered = chart.ordered && source.numbered;
       chart.series.push_back({source.label, history.at("t"), values, false});
     }
-    add_vibration(add, charts, source, solution.vibration());
+    const VibrationRecord vibration = solution.vibration();
+    add_vibration(add, charts, source, vibration);
     if (!has_three()) continue;
     const double share = budget / static_cast<double>(sources.size());
     page.bodies.push_back(body_view(source.label, solution, source.path, config, 0.9 * share));
-    for (Json& mode : mode_views(source.label, solution, 0.08 * share))
+    for (Json& mode : mode_views(source.label, solution, vibration, 0.08 * share))
       modes.push_back(std::move(mode));
   }
   // behind the bodies, of which the page shows the first

@@ -197,6 +197,12 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
   return indenters;
 }
 
+int steps_until(const SolutionReader& solution, double t) {
+  int n = 0;
+  while (n < solution.n_steps() && solution.step(n).t <= t) ++n;
+  return n;
+}
+
 // Under force control, and where the load factor is a result, an indenter is where the steps found
 // it.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution) {

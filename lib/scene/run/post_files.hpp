@@ -49,6 +49,9 @@ SnapshotFields snapshot_fields(const Body& body, const SolutionHeader& header,
 std::vector<double> picture_values(const Body& body, const StepState& state, Quantity field,
                                    int family, StressAt at);
 
+// How many steps of a solution lie before t or at it: the row of the last of them.
+int steps_until(const SolutionReader& solution, double t);
+
 // The rigid indenters as the solution's own config tells; none where it was written by a version
 // that cannot be read. Those of triangles are missing where a version wrote it that did not keep
 // them.
