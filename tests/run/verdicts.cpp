@@ -73,6 +73,15 @@ std::string pressed_block(double shorter, const std::string& more) {
       shorter, more);
 }
 
+std::string snapping_cap(double pressure, const std::string& more) {
+  return fmt::format(
+      "mesh: {{geometry: {{section: {{of: axisymmetric, size: [20, 1], divisions: [8, 1]}}}}, bend: 100, cells: hex27}}\n"
+      "supports: [{{on: x_max, hold: [x, y]}}]\n"
+      "loads: [{{on: top, pressure: {}}}]\n"
+      "material: {{matrix: {{neo_hooke: {{a1: 0.1666666667}}}}, volume: {{quadratic: {{d: 1.0e-2}}}}}}\n{}",
+      pressure, more);
+}
+
 }  // namespace
 
 TEST_CASE("verdicts: the surface condition of neo-Hooke's law is Biot's, in any frame") {
@@ -181,17 +190,9 @@ TEST_CASE("verdicts: the first unstable increment of a strut, a film and a cap c
 // With dead loads a cap may snap to a distant state that is stable. Whether and where Newton's
 // method finds one changes with the increments and with rounding; the verdict must not.
 TEST_CASE("verdicts: a cap that snaps has its limit point, however its increments fall") {
-  const auto cap = [](double pressure, const std::string& more) {
-    return fmt::format(
-        "mesh: {{geometry: {{section: {{of: axisymmetric, size: [20, 1], divisions: [8, 1]}}}}, bend: 100, cells: hex27}}\n"
-        "supports: [{{on: x_max, hold: [x, y]}}]\n"
-        "loads: [{{on: top, pressure: {}}}]\n"
-        "material: {{matrix: {{neo_hooke: {{a1: 0.1666666667}}}}, volume: {{quadratic: {{d: 1.0e-2}}}}}}\n{}",
-        pressure, more);
-  };
   const double whole = 2e-4;
-  const Verdict along =
-      verdict_of(cap(whole, "path: {first: 0.02, largest: 0.05, arc_length: {length: 3}}\n"));
+  const Verdict along = verdict_of(
+      snapping_cap(whole, "path: {first: 0.02, largest: 0.05, arc_length: {length: 3}}\n"));
   REQUIRE(along.critical);
   const double limit = whole * along.critical->load_factor;
   CHECK(limit == near(8.938e-5, 1e-3));
@@ -199,21 +200,16 @@ TEST_CASE("verdicts: a cap that snaps has its limit point, however its increment
   for (int i = 0; i < 24; ++i) {
     const double pressure = 1.1e-4 * std::pow(1.21, i);
     CAPTURE(pressure);
-    const Verdict found = verdict_of(cap(pressure, ""));
+    const Verdict found = verdict_of(snapping_cap(pressure, ""));
     REQUIRE(found.critical);
     CHECK(found.critical->kind == "limit point of load");
     CHECK(pressure * found.critical->t == near(limit, 2e-3));
   }
-  CHECK_FALSE(verdict_of(cap(0.98 * limit, "")).critical);
+  CHECK_FALSE(verdict_of(snapping_cap(0.98 * limit, "")).critical);
 }
 
 TEST_CASE("verdicts: on_unstable: stop ends a path that has jumped") {
-  const Verdict stopped = verdict_of(
-      "mesh: {geometry: {section: {of: axisymmetric, size: [20, 1], divisions: [8, 1]}}, bend: 100, cells: hex27}\n"
-      "supports: [{on: x_max, hold: [x, y]}]\n"
-      "loads: [{on: top, pressure: 1.665e-4}]\n"
-      "material: {matrix: {neo_hooke: {a1: 0.1666666667}}, volume: {quadratic: {d: 1.0e-2}}}\n"
-      "on_unstable: stop\n");
+  const Verdict stopped = verdict_of(snapping_cap(1.665e-4, "on_unstable: stop\n"));
   REQUIRE(stopped.critical);
   CHECK(stopped.critical->kind == "limit point of load");
   CHECK_FALSE(stopped.complete);
