@@ -3,7 +3,7 @@
 // own along the path. Of a surface that is given a volume the pressure is an unknown: the volume is
 // what the surface has swept from where it was at rest,
 //   V(u) = sum over facets, integral over s from 0 to 1 of f(X + s u) . u,   f of unit pressure
-// and dV = f(x) . du, so that K, f and f^T are the bordered system of solve/statics_border.cpp.
+// and dV = f(x) . du, so that K, f and f^T are the bordered system of solve/border.hpp.
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@
 namespace langer {
 
 // Increments of given length, in which the factor of all loads is an unknown
-// (solve/statics_border.cpp).
+// (solve/border.hpp).
 struct ArcLengthOptions {
   double length = 0;
   static void fields(auto& v) {

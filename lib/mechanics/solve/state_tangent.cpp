@@ -30,12 +30,12 @@ ShapeRate shape_rate(const ParameterChange& change, std::size_t contact, const V
 // Linearises the accepted state once: the factor of its tangent, and the contact laws at the nodes
 // that touch. Every derivative then costs one solution.
 StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
-    : statics_(statics),
+    : increment_(statics.increment()),
       factor_(statics.condensed_factor()),
       solvable_(statics.factorize_accepted()) {
-  if (!solvable_ || statics_.contacts_.empty()) return;
-  const BodyState& was = statics_.before_;
-  expected_ = was.u + statics_.extrapolated_ * (was.u - earlier.u);
+  if (!solvable_ || increment_.contacts.empty()) return;
+  const BodyState& was = increment_.before;
+  expected_ = was.u + increment_.trial.extrapolated * (was.u - earlier.u);
   take_candidates();
   if (!near_.empty()) take_rows();
 }
@@ -43,11 +43,11 @@ StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
 // Collects the candidates that touch, with their laws linearised at the accepted state. Open ones
 // count only where springs support a free body, since the springs act on them.
 void StateTangent::take_candidates() {
-  const BodyState &now = statics_.now_, &before = statics_.before_;
-  const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
-  const auto defects = statics_.defects();
-  for (std::size_t k = 0; k < statics_.contacts_.size(); ++k) {
-    const RigidContact& contact = statics_.contacts_[k];
+  const BodyState &now = increment_.now, &before = increment_.before;
+  const std::vector<Vec3>& X = increment_.body.mesh().X;
+  const auto defects = increment_.defects();
+  for (std::size_t k = 0; k < increment_.contacts.size(); ++k) {
+    const RigidContact& contact = increment_.contacts[k];
     const Vec3 c = indenter_displacement(contact, now.t, now.travel);
     const Vec3 c0 = indenter_displacement(contact, before.t, before.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
@@ -55,30 +55,30 @@ void StateTangent::take_candidates() {
       if (status == ContactStatus::open && !factor_.with_springs()) continue;
       const int node = contact.nodes[i];
       const Vec3 x = X[node] + now.u.segment<3>(3 * node);
-      const Vec3 x0 = X[node] + statics_.u_start_[k].segment<3>(3 * node);
+      const Vec3 x0 = X[node] + increment_.u_start[k].segment<3>(3 * node);
       Near n{k, i, linearise(contact, x, x0, c, c0, now.r[k][i]), {}, Vec3::Zero()};
       n.r = n.law.frame.transpose() * now.r[k][i];
       slip_.push_back(n.law.q.tail<2>().norm());
       approach_.push_back(n.law.frame.col(0).dot((x - x0) - (c - c0)));
       near_.push_back(n);
       status_.push_back(status);
-      pushed_ =
-          pushed_ || (static_cast<int>(k) == statics_.controlled_ && status != ContactStatus::open);
+      pushed_ = pushed_ || (static_cast<int>(k) == increment_.controlled_index &&
+                            status != ContactStatus::open);
     }
   }
   if (near_.empty()) return;
-  const std::vector<Vec3> c(statics_.contacts_.size(), Vec3::Zero());
-  ContactState state{statics_.contacts_,
+  const std::vector<Vec3> c(increment_.contacts.size(), Vec3::Zero());
+  ContactState state{increment_.contacts,
                      X,
                      now.u,
-                     statics_.u_start_,
+                     increment_.u_start,
                      c,
                      c,
                      now.r,
-                     pushed_ ? statics_.controlled_ : -1};
-  if (pushed_ && statics_.starts_with_travel())
-    state.start_moves = slip_origin_change_with_travel(*statics_.controlled(), increment_move(),
-                                                       statics_.gap_tolerance_);
+                     pushed_ ? increment_.controlled_index : -1};
+  if (pushed_ && increment_.starts_with_travel())
+    state.start_moves = slip_origin_change_with_travel(*increment_.controlled(), increment_move(),
+                                                       increment_.gap_tolerance);
   c_ = condensed(state, factor_, near_);
 }
 
@@ -125,7 +125,7 @@ void StateTangent::take_rows() {
     M.block<3, 3>(3 * p, 3 * p) += rows.r;
     // a node that cannot move along an axis has no compliance there: what it sticks by there is
     // nothing
-    const RigidContact& contact = statics_.contacts_[near_[q].contact];
+    const RigidContact& contact = increment_.contacts[near_[q].contact];
     for (int j = 0; j < 3; ++j)
       if (factor_.last_of(3 * contact.nodes[near_[q].candidate] + j) < 0) {
         const Vec3 h = near_[q].law.frame.row(j).transpose();
@@ -151,7 +151,7 @@ void StateTangent::take_rows() {
 VecX StateTangent::local_of(const VecX& last) const {
   VecX d(3 * static_cast<Eigen::Index>(near_.size()));
   for (std::size_t p = 0; p < near_.size(); ++p) {
-    const int node = statics_.contacts_[near_[p].contact].nodes[near_[p].candidate];
+    const int node = increment_.contacts[near_[p].contact].nodes[near_[p].candidate];
     Vec3 moved = Vec3::Zero();
     for (int j = 0; j < 3; ++j)
       if (const int row = factor_.last_of(3 * node + j); row >= 0) moved[j] = last[row];
@@ -162,8 +162,8 @@ VecX StateTangent::local_of(const VecX& last) const {
 
 // The increment that led to the state: slip is measured over it.
 IncrementMove StateTangent::increment_move() const {
-  const BodyState &now = statics_.now_, &was = statics_.before_;
-  return {statics_.equilibrium_.mesh().X, was.u, expected_, was.t, was.travel, now.t, now.travel};
+  const BodyState &now = increment_.now, &was = increment_.before;
+  return {increment_.body.mesh().X, was.u, expected_, was.t, was.travel, now.t, now.travel};
 }
 
 // Of the two states before; an indenter's travel in this increment is an unknown of its own.
@@ -173,18 +173,18 @@ std::vector<Vec3> StateTangent::slip_of_history(const ParameterChange& change,
   std::vector<Vec3> out(near_.size(), Vec3::Zero());
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
-    const RigidContact& contact = statics_.contacts_[n.contact];
+    const RigidContact& contact = increment_.contacts[n.contact];
     if (contact.mu == 0 || status_[p] == ContactStatus::open) continue;
     const int node = contact.nodes[n.candidate];
     const Vec3 d_u0 = before.u.segment<3>(3 * node);
-    const Vec3 d_u = d_u0 + statics_.extrapolated_ * (d_u0 - earlier.u.segment<3>(3 * node));
+    const Vec3 d_u = d_u0 + increment_.trial.extrapolated * (d_u0 - earlier.u.segment<3>(3 * node));
     const Vec3 d_c0 =
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const ExpectedMove move = increment_move().of(contact, node);
     ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
     d.gap0 = shape_rate(change, n.contact, move.X + move.u0 - move.c0).gap;
     d.gap = shape_rate(change, n.contact, move.X + move.u - move.c).gap;
-    const Vec3 from = slip_origin_change(contact, move, d, statics_.gap_tolerance_) - d_c0;
+    const Vec3 from = slip_origin_change(contact, move, d, increment_.gap_tolerance) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }
@@ -196,7 +196,7 @@ Vec3 StateTangent::moved_against(const ParameterChange& change, const Near& near
   Vec3 moved = Vec3::Zero();
   if (change.prescribed.size() > 0)
     moved +=
-        change.prescribed.segment<3>(3 * statics_.contacts_[near.contact].nodes[near.candidate]);
+        change.prescribed.segment<3>(3 * increment_.contacts[near.contact].nodes[near.candidate]);
   if (!change.indenters.empty()) moved -= change.indenters[near.contact];
   return near.law.frame.transpose() * moved;
 }
@@ -208,11 +208,11 @@ StateTangent::ShapeEffect StateTangent::shape_effect(const ParameterChange& chan
   ShapeEffect effect;
   if (change.shapes.empty()) return effect;
   const Near& n = near_[p];
-  const RigidContact& contact = statics_.contacts_[n.contact];
-  const BodyState& now = statics_.now_;
+  const RigidContact& contact = increment_.contacts[n.contact];
+  const BodyState& now = increment_.now;
   const int node = contact.nodes[n.candidate];
   const Vec3 x =
-      statics_.equilibrium_.mesh().X[static_cast<std::size_t>(node)] + now.u.segment<3>(3 * node);
+      increment_.body.mesh().X[static_cast<std::size_t>(node)] + now.u.segment<3>(3 * node);
   const ShapeRate rate =
       shape_rate(change, n.contact, x - indenter_displacement(contact, now.t, now.travel));
   const Eigen::Vector2d turn = n.law.frame.rightCols<2>().transpose() * rate.normal;
@@ -296,7 +296,7 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
 // Adds the answer of one solution to a derivative: displacements, the travel of a pushed indenter,
 // and reactions.
 void StateTangent::add(const Change& change, StateDerivative& to) const {
-  const Dofs& dofs = statics_.equilibrium_.dofs();
+  const Dofs& dofs = increment_.body.dofs();
   for (int row = 0; row < dofs.n_free(); ++row) to.u[dofs.free[row]] += change.move[row];
   to.travel += change.travel;
   for (std::size_t p = 0; p < near_.size(); ++p) {
@@ -312,8 +312,8 @@ void StateTangent::add(const Change& change, StateDerivative& to) const {
 // A derivative of size zero.
 StateDerivative StateTangent::of_rest() const {
   StateDerivative d;
-  d.u = VecX::Zero(statics_.equilibrium_.dofs().n);
-  for (const RigidContact& contact : statics_.contacts_)
+  d.u = VecX::Zero(increment_.body.dofs().n);
+  for (const RigidContact& contact : increment_.contacts)
     d.r.emplace_back(contact.nodes.size(), Vec3::Zero());
   return d;
 }
@@ -321,25 +321,25 @@ StateDerivative StateTangent::of_rest() const {
 // What a derivative leaves unbalanced: reactions and the skew part of pressures minus K times the
 // movement.
 VecX StateTangent::on_free_rows(const StateDerivative& d) const {
-  Assembler& body = statics_.equilibrium_;
+  Assembler& body = increment_.body;
   VecX all = VecX::Zero(body.dofs().n);
   for (std::size_t k = 0; k < d.r.size(); ++k)
     for (std::size_t i = 0; i < d.r[k].size(); ++i)
-      all.segment<3>(3 * statics_.contacts_[k].nodes[i]) += d.r[k][i];
-  if (const VecX beside = body.nonsymmetric_part(statics_.now_.u, d.u); beside.size() > 0)
+      all.segment<3>(3 * increment_.contacts[k].nodes[i]) += d.r[k][i];
+  if (const VecX beside = body.nonsymmetric_part(increment_.now.u, d.u); beside.size() > 0)
     all -= beside;
-  return statics_.on_free_rows(all) - body.K_times(statics_.on_free_rows(d.u));
+  return increment_.on_free_rows(all) - body.K_times(increment_.on_free_rows(d.u));
 }
 
 // The change of the internal forces by the parameter at fixed free displacements.
 VecX StateTangent::on_free_rows(const ParameterChange& change) const {
-  Assembler& body = statics_.equilibrium_;
+  Assembler& body = increment_.body;
   VecX all = change.f.size() > 0 ? change.f : VecX(VecX::Zero(body.dofs().n));
   if (change.prescribed.size() > 0) {
-    body.assemble(statics_.now_.u, true, &change.prescribed);
+    body.assemble(increment_.now.u, true, &change.prescribed);
     all += body.K_du();
   }
-  return statics_.on_free_rows(all);
+  return increment_.on_free_rows(all);
 }
 
 // Solves for the derivative of the state with iterative refinement: the factor is that of a
@@ -384,23 +384,23 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     last = left;
   }
   if (!(last <= enough * size)) return std::nullopt;
-  if (statics_.controlled_ >= 0 && !pushed_) {  // it rests where it touches
-    const std::vector<Vec3>& X = statics_.equilibrium_.mesh().X;
+  if (increment_.controlled_index >= 0 && !pushed_) {  // it rests where it touches
+    const std::vector<Vec3>& X = increment_.body.mesh().X;
     const auto position = [&](int node) {
-      return Vec3(X[node] + statics_.now_.u.segment<3>(3 * node));
+      return Vec3(X[node] + increment_.now.u.segment<3>(3 * node));
     };
     const Vec3 c =
-        indenter_displacement(*statics_.controlled(), statics_.now_.t, statics_.now_.travel);
+        indenter_displacement(*increment_.controlled(), increment_.now.t, increment_.now.travel);
     const auto moved = [&](int node) {
       Vec3 by = out.u.segment<3>(3 * node);
       if (change.shapes.empty()) return by;
       const Vec3 x = position(node) - c;
-      const auto contact = static_cast<std::size_t>(statics_.controlled_);
-      by += shape_rate(change, contact, x).gap * shape_at(statics_.controlled()->shape, x).normal;
+      const auto contact = static_cast<std::size_t>(increment_.controlled_index);
+      by += shape_rate(change, contact, x).gap * shape_at(increment_.controlled()->shape, x).normal;
       return by;
     };
-    out.travel = touch_travel_change(*statics_.controlled(), statics_.now_.t, statics_.now_.travel,
-                                     position, moved);
+    out.travel = touch_travel_change(*increment_.controlled(), increment_.now.t,
+                                     increment_.now.travel, position, moved);
   }
   return out;
 }
@@ -408,14 +408,14 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
 std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& changes,
                                           const std::vector<StateDerivative>& derivatives,
                                           std::vector<double>* energies) const {
-  Assembler& body = statics_.equilibrium_;
+  Assembler& body = increment_.body;
   if (energies) energies->assign(derivatives.size(), 0);
   std::vector<VecX> u;
   for (const StateDerivative& d : derivatives) u.push_back(d.u);
-  std::vector<VecX> out = body.prescribed_rows_times(statics_.now_.u, u);
+  std::vector<VecX> out = body.prescribed_rows_times(increment_.now.u, u);
   for (std::size_t j = 0; j < out.size(); ++j) {
     double of_moduli = 0;
-    const VecX beside = body.nonsymmetric_part(statics_.now_.u, u[j], &of_moduli);
+    const VecX beside = body.nonsymmetric_part(increment_.now.u, u[j], &of_moduli);
     if (energies) (*energies)[j] = body.f_int().dot(u[j]) + of_moduli;
     for (const Prescribed& p : body.dofs().prescribed) {
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];
@@ -423,7 +423,7 @@ std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& ch
     }
     for (std::size_t k = 0; k < derivatives[j].r.size(); ++k)
       for (std::size_t i = 0; i < derivatives[j].r[k].size(); ++i)
-        out[j].segment<3>(3 * statics_.contacts_[k].nodes[i]) += derivatives[j].r[k][i];
+        out[j].segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].r[k][i];
   }
   return out;
 }

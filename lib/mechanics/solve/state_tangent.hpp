@@ -99,7 +99,7 @@ class StateTangent {
   void add(const Change& change, StateDerivative& to) const;
   VecX on_free_rows(const StateDerivative& d) const;  // of the reactions less the change of f_int
 
-  Statics& statics_;
+  const IncrementState& increment_;
   TangentFactor& factor_;
   VecX expected_;                           // u that the increment was begun with
   bool solvable_ = false, pushed_ = false;  // an indenter under force control bears something

@@ -2,163 +2,357 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/stopwatch.hpp"
-#include "mechanics/linear/krylov.hpp"
-#include "mechanics/mesh/reference.hpp"
+#include "mechanics/solve/balance.hpp"
 #include "mechanics/solve/edge_slip.hpp"
 
 namespace langer {
 
-namespace {
-
-TangentFactor timed_factor(const Assembler& body, const std::vector<RigidContact>& contacts,
-                           const TouchingBodies& bodies, const StaticsOptions& options,
-                           double& seconds) {
-  const Stopwatch watch(seconds);
-  if (!bodies.empty()) return {body, contacts, bodies.nodes(), options.threads};
-  return {body, contacts, options.threads, options.contact_by, options.linear_by};
-}
-
-}  // namespace
-
-BodyState at_rest(BodyState shape) {
-  shape.t = 0;
-  shape.travel = 0;
-  shape.u.setZero();
-  shape.pressures.setZero();
-  for (std::vector<Vec3>& reactions : shape.r)
-    std::fill(reactions.begin(), reactions.end(), Vec3(Vec3::Zero()));
-  return shape;
-}
-
 Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
                  const StaticsOptions& options, std::vector<SurfaceContact> surfaces)
-    : equilibrium_(equilibrium),
-      contacts_(std::move(contacts)),
-      bodies_(std::move(surfaces)),
-      options_(options),
-      factor_(timed_factor(equilibrium_, contacts_, bodies_, options_, cost_.analysis)),
-      bonds_(contacts_) {
-  scale_ = scale_of(equilibrium_);
-  gap_tolerance_ = options_.gap_tolerance.value_or(1e-11 * scale_.length);
-  now_.u = VecX::Zero(equilibrium_.dofs().n);
-  for (const RigidContact& contact : contacts_)
-    now_.r.emplace_back(contact.nodes.size(), Vec3::Zero());
-  for (const SurfaceContact& surface : bodies_.surfaces())
-    now_.r.emplace_back(surface.nodes.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    if (contacts_[k].control) controlled_ = static_cast<int>(k);
-  now_.bonds = bonds_.at_rest(equilibrium_.mesh().X);
-  now_.pressures = VecX::Zero(equilibrium_.loads().n_volumes());
-  p_ = now_.pressures;
-  before_ = now_;
-  u_ = now_.u;
-  r_ = r_next_ = now_.r;
-  u_start_.assign(contacts_.size(), now_.u);
-  if (options_.inertia) now_.motion = before_.motion = options_.inertia->at_start();
-}
+    : state_(equilibrium, std::move(contacts), options, std::move(surfaces)),
+      body_(state_.body),
+      now_(state_.now),
+      before_(state_.before),
+      trial_(state_.trial),
+      border_(state_),
+      factors_(state_, border_),
+      step_(state_, border_, factors_),
+      signs_(state_, border_, factors_),
+      motion_(state_) {}
 
 Statics::Cost Statics::cost() const {
-  Cost cost = cost_;
-  cost.factorizations = factor_.counts().factorizations;
+  Cost cost = state_.cost;
+  cost.factorizations = factors_.factor.counts().factorizations;
   return cost;
-}
-
-std::vector<Vec3> Statics::indenters(double t, double travel) const {
-  std::vector<Vec3> c;
-  for (const RigidContact& contact : contacts_)
-    c.push_back(indenter_displacement(contact, t, travel));
-  return c;
 }
 
 Problem Statics::problem() {
   Problem p;
-  p.size = scale_.length;
-  p.least_force = scale_.least_force;
+  p.size = state_.scale.length;
+  p.least_force = state_.scale.least_force;
   p.assess = [this](const VecX& u, bool with_tangent) {
     return assess(u, with_tangent);
   };
   p.correction = [this] {
-    return correction();
+    return step_.correction();
   };
-  const bool conserves = options_.inertia && options_.inertia->conserves();
-  if (equilibrium_.formulation() != Formulation::displacement && !iterative() && !conserves) {
+  const bool conserves = state_.options.inertia && state_.options.inertia->conserves();
+  if (body_.formulation() != Formulation::displacement && !factors_.factor.iterative() &&
+      !conserves) {
     p.correction_again = [this] {
-      return correction_again();
+      return step_.correction_again();
     };
     // bonds that let go solve several times within an increment, and only the first time with what
     // the state before left
-    p.cost_ratio = cost_ratio();
-    p.begins_again = factor_serves_ && bonds_.none();
+    p.cost_ratio = factors_.cost_ratio();
+    p.begins_again = factors_.serves && state_.bonds.none();
   }
   p.admissible = [this](const VecX& u) {
-    return admissible(u);
+    return state_.admissible(u);
   };
   p.moved = [this](const VecX& du, double step) {
-    moved(du, step);
+    step_.moved(du, step);
   };
   return p;
 }
 
 std::optional<std::string> Statics::edge_passed() const {
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const Vec3 begin = indenter_displacement(contacts_[k], now_.t, now_.travel);
-    const Vec3 end = indenter_displacement(contacts_[k], t_, travel_);
-    if (node_past_edge({contacts_[k], equilibrium_.mesh().X, now_.u, u_, begin, end, r_[k]}))
-      return contacts_[k].name;
+  for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
+    const Vec3 begin = indenter_displacement(state_.contacts[k], now_.t, now_.travel);
+    const Vec3 end = indenter_displacement(state_.contacts[k], trial_.t, trial_.travel);
+    if (node_past_edge(
+            {state_.contacts[k], body_.mesh().X, now_.u, trial_.u, begin, end, trial_.r[k]}))
+      return state_.contacts[k].name;
   }
   return std::nullopt;
 }
 
-std::vector<ContactDefect> Statics::defects() const {
-  const bool accepted = now_.t == t_;
-  const double t0 = accepted ? before_.t : now_.t;
-  const double travel0 = accepted ? before_.travel : now_.travel;
-  std::vector<ContactDefect> out;
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    out.push_back(contact_defect(contacts_[k], equilibrium_.mesh().X, u_, u_start_[k],
-                                 indenter_displacement(contacts_[k], t_, travel_),
-                                 indenter_displacement(contacts_[k], t0, travel0), r_[k],
-                                 motion(t0)));
-  return out;
-}
-
-std::vector<ContactDefect> Statics::surface_defects() const {
-  if (bodies_.empty()) return {};
-  const bool accepted = now_.t == t_;
-  const double t0 = accepted ? before_.t : now_.t;
-  const VecX& u0 = accepted ? before_.u : now_.u;
-  return bodies_.defects(equilibrium_.mesh().X, u_, u0, r_, contacts_.size(), motion(t0));
-}
-
 const std::vector<std::vector<MortarNode>>& Statics::surface_averages() const {
-  return bodies_.at(equilibrium_.mesh().X, u_);
+  return state_.surfaces.at(body_.mesh().X, trial_.u);
 }
 
 std::vector<double> Statics::surface_penetrations() const {
-  return bodies_.penetrations(equilibrium_.mesh().X, u_);
+  return state_.surfaces.penetrations(body_.mesh().X, trial_.u);
 }
 
 VecX Statics::reactions() const {
-  if (options_.inertia) return now_.motion.reactions;
-  return trial_reactions();
+  if (state_.options.inertia) return now_.motion.reactions;
+  return trial_reactions(state_);
 }
 
-VecX Statics::trial_reactions() const {
-  VecX out = VecX::Zero(equilibrium_.dofs().n);
-  for (const Prescribed& p : equilibrium_.dofs().prescribed)
-    out[p.dof] = equilibrium_.f_int()[p.dof];
-  if (!equilibrium_.loads().empty())
-    for (const Prescribed& p : equilibrium_.dofs().prescribed)
-      out[p.dof] -= equilibrium_.f_ext()[p.dof];
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    for (std::size_t i = 0; i < r_[k].size(); ++i)
-      out.segment<3>(3 * contacts_[k].nodes[i]) += r_[k][i];
-  if (!bonds_.none()) bonds_.add_forces(out);
-  if (!bodies_.empty()) bodies_.add_forces(equilibrium_.mesh().X, u_, r_, contacts_.size(), out);
+// Continues from a recorded state. The state before it serves the extrapolation.
+void Statics::restore(const BodyState& accepted, const BodyState* before) {
+  now_ = accepted;
+  if (before) {
+    before_ = *before;
+  } else {
+    before_ = accepted;
+  }
+  factors_.forget();
+  step_.begin();
+  trial_.t = now_.t;
+  trial_.u = now_.u;
+  trial_.r = state_.next.r = now_.r;
+  trial_.travel = now_.travel;
+  body_.load_to(trial_.t);
+  state_.u_start.assign(state_.contacts.size(), now_.u);
+  border_.take_pressures_of(now_);
+  if (!state_.bonds.none()) begin_bonds();
+}
+
+void Statics::begin(double t) {
+  border_.leave_arc();
+  trial_.t = t;
+  trial_.extrapolated = 0;
+  unsettled_ = false;
+  factors_.begin_increment();
+  step_.begin();
+  trial_.u = now_.u;
+  trial_.r = state_.next.r = now_.r;
+  trial_.travel = now_.travel;
+  state_.u_start.assign(state_.contacts.size(), now_.u);
+  if (!state_.bonds.none()) begin_bonds();
+  body_.begin_increment((t - now_.t) * state_.options.seconds);
+  if (state_.options.inertia) {
+    motion_.begin((t - now_.t) * state_.options.seconds);
+    return;
+  }
+  body_.load_to(t);
+  border_.take_pressures_of(now_);
+  body_.pressures_from(now_.u);
+  const bool pushed =
+      state_.controlled_index >= 0 &&
+      state_.controlled()->control->force.at(t) != state_.controlled()->control->force.at(now_.t);
+  // If nothing moves in this increment, the last movement does not continue.
+  const bool rests = state_.motion(now_.t) == 0 && !body_.loads().moves(now_.t, t) && !pushed;
+  if (const double last = now_.t - before_.t; last > 0 && !rests && continues_motion())
+    extrapolate(std::min((t - now_.t) / last, 2.0));
+  if (state_.controlled_index >= 0) state_.move_to_touch();
+  state_.slip_from_touch();
+  state_.turn_surfaces();
+  if (state_.starts_with_travel()) state_.expected = trial_.u;
+  const int level = factors_.level_of_increment(now_, t, now_.travel - before_.travel);
+  if (level != factors_.factor.level()) factors_.take_level(level);
+}
+
+// Whether the last increment predicts this one: no prescribed movement, rotation or load has a
+// kink between them.
+bool Statics::continues_motion() const {
+  for (const Prescribed& p : body_.dofs().prescribed)
+    if (!p.in_proportion() && !p.keeps_rate(before_.t, now_.t, trial_.t)) return false;
+  for (const RigidContact& contact : state_.contacts)
+    if (contact.rotation && !contact.rotation->angle.keeps_rate(before_.t, now_.t, trial_.t))
+      return false;
+  return body_.loads().keeps_rate(before_.t, now_.t, trial_.t);
+}
+
+// Starts the increment from u_n + s (u_n - u_{n-1}), unless an element would be inverted there.
+void Statics::extrapolate(double s) {
+  const VecX step = s * (now_.u - before_.u);
+  if (!state_.options.extrapolate || !state_.admissible(now_.u + step)) return;
+  body_.extrapolate_pressures(before_.u, s);
+  trial_.u += step;
+  if (trial_.pressures.size() > 0 && before_.pressures.size() == trial_.pressures.size()) {
+    trial_.pressures += s * (now_.pressures - before_.pressures);
+    body_.set_load_pressures(trial_.pressures);
+  }
+  trial_.extrapolated = s;
+  trial_.travel += s * (now_.travel - before_.travel);
+}
+
+double Statics::time_error() { return body_.end_increment(trial_.u); }
+
+void Statics::replay(const BodyState& next) {
+  body_.begin_increment((next.t - now_.t) * state_.options.seconds);
+  body_.end_increment(next.u);
+  body_.accept_increment(now_.u, next.u);
+  // Bonds come with the state: nothing of them is computed again.
+  before_ = std::move(now_);
+  now_ = next;
+  trial_.t = now_.t;
+  trial_.u = now_.u;
+  trial_.r = now_.r;
+  trial_.travel = now_.travel;
+  border_.take_pressures_of(now_);
+}
+
+void Statics::accept() {
+  if (state_.options.inertia) {
+    motion_.accept();
+    return;
+  }
+  body_.accept_increment(now_.u, trial_.u);
+  before_ = std::move(now_);
+  now_ = {trial_.t, trial_.u, trial_.r, trial_.travel};
+  now_.pressures = trial_.pressures;
+  if (!state_.bonds.none()) accept_bonds();
+}
+
+// Residual (and tangent) at u, and the first condition of equilibrium that does not hold.
+Assessment Statics::assess(const VecX& u, bool with_tangent) {
+  const Stopwatch watch(state_.cost.assembly);
+  Assessment out;
+  const VecX du = state_.remaining_prescribed(u);
+  const VecX direction = border_.imposed_direction(u);
+  if (std::exchange(unsettled_, false)) body_.pressures_from(u);
+  out.admissible = body_.assemble(u, with_tangent, &direction);
+  factors_.K_is_current = with_tangent;
+  if (!out.admissible) {
+    if (body_.J_min() > 0) {
+      out.missing =
+          "a force is not finite: the exponential of a fibre overflows where c2 (I4_bar - 1)^2 > 300, or the start "
+          "of the step is too far away";
+    } else {
+      out.missing = "an element is turned inside out";
+    }
+    return out;
+  }
+  if (!state_.bonds.none())
+    state_.bonds.evaluate(body_.mesh().X, u, state_.indenters(trial_.t, trial_.travel));
+  out.residual = free_residual(state_).norm();
+  out.reference = force_scale(state_);
+  out.floor = 3 * body_.rounding_floor();
+  if (body_.conserves()) {
+    // An increment has the rounding of both of its ends; of a body that turns, displacements are as
+    // large as the body, and what rounds is not only the volume, but also 4 M (u_m - u0) / h^2.
+    const VecX rounded = std::numeric_limits<double>::epsilon() * u.cwiseAbs();
+    out.floor = 2 * (out.floor + state_.scale.least_force) +
+                state_.on_free_rows(state_.options.inertia->tangent_times(rounded)).norm();
+  }
+  if (!contact_law_holds(state_, u))
+    out.missing = "the contact law does not hold";
+  else if (state_.controlled_index >= 0 && !force_is_given(state_))
+    out.missing = "the force on the indenter is not the given one";
+  else if (!state_.prescribed_reached(u, du))
+    out.missing = "prescribed displacements not reached";
+  else if (border_.active())
+    out.missing = border_.defect(u);
+  if (out.missing.empty() && factors_.factor.held_by_contact() && slips_away(state_))
+    out.missing = "the body slips away from under the indenter, and nothing else holds it";
+  out.others = out.missing.empty();
   return out;
+}
+
+// The balance of the free dofs with fixed contact reactions, for solvers that know no contact
+// (KINSOL).
+FreeBalance Statics::free_balance() {
+  FreeBalance b;
+  b.free = body_.dofs().free;
+  b.residual = [this](const VecX& u, VecX& f) {
+    const Stopwatch watch(state_.cost.assembly);
+    if (!body_.assemble(u, false)) return false;
+    f = -free_residual(state_);
+    return true;
+  };
+  b.tangent = [this](const VecX& u) {
+    if (!body_.assemble(u, true)) return false;
+    const Stopwatch watch(state_.cost.factor);
+    factors_.serves = factors_.of_accepted = false;
+    factors_.factored_at = u;
+    return factors_.factor.factorize_fixed_reactions(body_);
+  };
+  b.solve = [this](const VecX& rhs, bool fresh) {
+    const Stopwatch watch(state_.cost.solve);
+    const VecX step = factors_.factor.linear().solve(rhs);
+    unsettled_ = body_.formulation() == Formulation::linear_dilatation;
+    if (!fresh) return step;
+    VecX du = VecX::Zero(trial_.u.size());
+    for (Eigen::Index i = 0; i < step.size(); ++i) du[body_.dofs().free[i]] = step[i];
+    body_.predict_pressures(du, 1);
+    return step;
+  };
+  return b;
+}
+
+void Statics::begin_arc(double length, const VecX* towards) {
+  begin(now_.t);
+  const Dofs& dofs = body_.dofs();
+  const double nodes = (dofs.n_free() + static_cast<double>(dofs.prescribed.size())) / 3;
+  Arc arc;
+  arc.size = length * std::sqrt(nodes);
+  arc.nodes = nodes;
+  if (towards) arc.towards = *towards;
+  follow(arc);
+}
+
+void Statics::begin_along(const VecX& mode, double amplitude) {
+  begin(now_.t);
+  follow(Arc{amplitude, 0, mode, amplitude * mode});
+}
+
+void Statics::begin_from(const VecX& u) {
+  const VecX step = u - now_.u;
+  trial_.u = now_.u;
+  body_.assemble(trial_.u, true);
+  body_.pressures_from(trial_.u);
+  factors_.K_is_current = false;
+  if (!state_.admissible(u)) return;
+  body_.predict_pressures(step, 1);
+  trial_.u = u;
+}
+
+void Statics::restart() {
+  if (!border_.arc()) {
+    begin(trial_.t);
+    return;
+  }
+  const Arc arc = *border_.arc();
+  begin(now_.t);
+  follow(arc);
+}
+
+// In an increment that has begun. How far the indenter goes is not known before, so any candidate
+// may close.
+void Statics::follow(const Arc& arc) {
+  border_.begin(arc);
+  if (state_.contacts.empty() && state_.surfaces.empty()) return;
+  state_.expected = trial_.u;
+  for (std::size_t k = 0; k < state_.contacts.size(); ++k)
+    if (state_.contacts[k].mu > 0) state_.slip_from_touch(k, state_.expected);
+  state_.turn_surfaces();
+  factors_.take_level(factors_.factor.levels().all());
+}
+
+void Statics::begin_bonds() {
+  state_.bonds.begin(now_.bonds, (trial_.t - now_.t) * state_.options.seconds);
+  state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
+  jump_ = {};
+}
+
+// Called with what the last increment left in before_.
+void Statics::accept_bonds() {
+  const bool jumped = jump_.work_of_jumps != 0 || jump_.released != 0;
+  now_.bonds =
+      state_.bonds.after(trial_.r, before_.r, trial_.u, state_.indenters(trial_.t, trial_.travel));
+  now_.in_bonds = before_.in_bonds;
+  if (jumped) {
+    now_.in_bonds.dissipated += state_.bonds.dissipated_since(before_.bonds);
+  } else {
+    now_.in_bonds.dissipated += state_.bonds.dissipated();
+  }
+  now_.in_bonds.released += jump_.released;
+  now_.in_bonds.work_of_jumps += jump_.work_of_jumps;
+  now_.in_bonds.stored = stored();
+}
+
+void Statics::restore_trial(const Trial& trial) {
+  trial_.u = trial.u;
+  trial_.r = state_.next.r = trial.r;
+  factors_.K_is_current = factors_.serves = false;
+  step_.begin();
+  body_.pressures_from(trial_.u);
+  state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
+}
+
+double Statics::stored() const { return body_.W() + state_.bonds.stored(); }
+
+double Statics::work_of_loads(const VecX& from) const {
+  if (body_.loads().empty()) return 0;
+  return body_.f_ext().dot(trial_.u - from);
 }
 
 }  // namespace langer
