@@ -1,18 +1,23 @@
-// All checks of the states of a run, as its config asks for them: stability (stability_watch.hpp,
-// critical_point.hpp), contact on the whole surface (contact_watch.hpp), rounding and locking
-// (result_watch.hpp). A run calls it after every increment.
+// All checks of the states of a run, as its config asks for them. A run calls it after every
+// increment.
+//   stability_watch.hpp   negative eigenvalues, strong ellipticity
+//   critical_search.hpp   where on the path the body becomes unstable, or the run jumps
+//   turning_points.hpp    extrema of a load that is a result
+//   loss_watch.hpp        creases, support, and what else needs no search
+//   contact_watch.hpp     contact on the whole surface
+//   result_watch.hpp      rounding and locking
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/checks/contact_watch.hpp"
-#include "accuracy/checks/critical_point.hpp"
-#include "accuracy/checks/free_surface.hpp"
+#include "accuracy/checks/critical_search.hpp"
+#include "accuracy/checks/loss_watch.hpp"
 #include "accuracy/checks/result_watch.hpp"
 #include "accuracy/checks/stability_watch.hpp"
+#include "accuracy/checks/turning_points.hpp"
 #include "mechanics/solve/symmetry_breaking.hpp"
 #include "results/store/text_result.hpp"
 #include "scene/run/run.hpp"
@@ -49,8 +54,10 @@ class RunWatch {
   // At the end of the path: finds the first critical point that lies on it, if the config asks for
   // it. The run is left at its end. only_contact: nothing else restrains the body in some direction
   void locate(const RunEnd& end, bool only_contact = false);
-  const std::optional<CriticalPoint>& critical() const { return critical_; }
-  void know(CriticalPoint point) { critical_ = std::move(point); }  // where the path leaves another
+  const std::optional<CriticalPoint>& critical() const { return search_.found(); }
+  void know(CriticalPoint point) {
+    search_.know(std::move(point));
+  }  // where the path leaves another
 
   std::vector<std::string> warnings() const;
   std::vector<std::string> notes() const;
@@ -66,19 +73,11 @@ class RunWatch {
   std::optional<StabilityReport> report_of_point(const StepRecord& record);
   bool breaking_at(bool at_end) const;
   bool follows_states() const;
-  void take_state(StateOnPath state, bool doubtful);
-  void take_jump(const StateOnPath& state, bool doubtful);
-  void take_turning(const StepRecord& record);
-  bool kink_between(double from, double to) const;
-  void take_losses(const StepRecord& record);
-  void take_surface(const StepRecord& record, const BodyState& state);
-  void take_support(const StepRecord& record);
-  void locate_bifurcation(const RunEnd& end);
-  void search_jump();
-  std::optional<CriticalPoint> support_lost(const RunEnd& end) const;
+  void take_losses(const StepRecord& record, const BodyState* state);
 
   Run& run_;
   StabilityCheck when_;
+  LocateCritical locate_;
   OnUnstable on_unstable_;
   bool breaking_at_each_step_;   // movements that break the symmetry, not at the end only
   std::optional<Statics> mesh_;  // of a homogeneous body, whose stability is that of its mesh
@@ -88,44 +87,10 @@ class RunWatch {
   std::optional<ContactWatch> contact_;
   std::string unstable_, last_said_;
 
-  // The last two states, and the first three of which the last has more negative eigenvalues.
-  LocateCritical locate_;
-  std::optional<StateOnPath> before_, last_;
-  struct Crossing {
-    StateOnPath before, first, last;
-  };
-  struct Suspect {
-    Crossing states;
-    double faster = 0;  // rate of the movement, relative to that of the increment before
-  };
-  std::optional<Crossing> crossing_;
-  // Three states, of which the last is far from the others: near a limit point the movement grows
-  // without a jump, so the first suspect need not be the jump.
-  std::vector<Suspect> suspects_;
-  std::optional<Crossing> jump_;  // that of the suspects which the search has confirmed
-  int n_indefinite_ = 0;          // tangents of iterations up to the last state
-  std::optional<CriticalPoint> critical_;
-  // A load that is a result has an extremum: a limit point of it.
-  struct Turning {
-    std::string name, unit;
-    double t = 0, value = 0;
-    bool greatest = false;
-  };
-  std::vector<Turning> turnings_;
-  struct Sample {
-    double t = 0, value = 0;
-  };
-  std::map<std::string, std::vector<Sample>> samples_;  // the last two, by name
-
-  // The first steps in which something is lost, known to an increment: strong ellipticity in a
-  // point, the surface condition at a free face, stability.
-  std::optional<CriticalPoint> material_lost_, surface_lost_, stability_lost_;
-  std::optional<FreeSurface> surface_;
-  double t_looked_ = 0;  // of the step before
-  std::optional<Sample> stiffness_before_, margin_before_;
-  static void move_to_root(CriticalPoint& point, const std::optional<Sample>& before,
-                           const Sample& now);
-  std::vector<Sample> support_;  // sum of all contact reactions in the last two steps [N]
+  CriticalSearch search_;
+  int n_indefinite_ = 0;  // tangents of iterations up to the last state
+  TurningPoints turning_;
+  LossWatch losses_;
 };
 
 }  // namespace langer

@@ -153,74 +153,74 @@ void Inertia::begin(const VecX& u, double travel, const MotionState& motion, dou
   u0_ = u;
   travel0_ = travel;
   start_ = motion;
-  h_ = seconds;
+  step_.h = seconds;
   const double rho = options_.rho_inf;
-  am_ = (2 * rho - 1) / (rho + 1);
-  af_ = rho / (rho + 1);
-  gamma_ = 0.5 - am_ + af_;
-  beta_ = 0.25 * (1 - am_ + af_) * (1 - am_ + af_);
+  step_.am = (2 * rho - 1) / (rho + 1);
+  step_.af = rho / (rho + 1);
+  step_.gamma = 0.5 - step_.am + step_.af;
+  step_.beta = 0.25 * (1 - step_.am + step_.af) * (1 - step_.am + step_.af);
   switch (options_.scheme) {
     case Scheme::generalised_alpha:
-      a_u_ = (1 - am_) / ((1 - af_) * beta_ * h_ * h_);
-      v_u_ = gamma_ / (beta_ * h_);
+      step_.a_u = (1 - step_.am) / ((1 - step_.af) * step_.beta * step_.h * step_.h);
+      step_.v_u = step_.gamma / (step_.beta * step_.h);
       break;
     case Scheme::energy_momentum:
-      a_u_ = 4 / (h_ * h_);
-      v_u_ = 2 / h_;
+      step_.a_u = 4 / (step_.h * step_.h);
+      step_.v_u = 2 / step_.h;
       break;
     case Scheme::theta:
-      a_u_ = 1 / (options_.theta * options_.xi * h_ * h_);
-      v_u_ = 1 / (options_.theta * h_);
+      step_.a_u = 1 / (options_.theta * options_.xi * step_.h * step_.h);
+      step_.v_u = 1 / (options_.theta * step_.h);
       break;
   }
-  travel_k_ = options_.travel_mass * a_u_;
-  for (std::size_t i = 0; i < M_values_.size(); ++i) tangent_[i] = a_u_ * M_values_[i];
-  for (std::size_t i = 0; i < C_values_.size(); ++i) tangent_[i] += v_u_ * C_values_[i];
+  travel_k_ = options_.travel_mass * step_.a_u;
+  for (std::size_t i = 0; i < M_values_.size(); ++i) tangent_[i] = step_.a_u * M_values_[i];
+  for (std::size_t i = 0; i < C_values_.size(); ++i) tangent_[i] += step_.v_u * C_values_[i];
 }
 
 double Inertia::force_scale() const { return (mass_.M * acceleration_).norm(); }
 
 VecX Inertia::predicted() const {
-  const double h = conserves() ? 0.5 * h_ : h_;
+  const double h = conserves() ? 0.5 * step_.h : step_.h;
   VecX du = VecX::Zero(u0_.size());
   for (int dof : body_.dofs().free) du[dof] = h * start_.v[dof];
   return du;
 }
 
 double Inertia::predicted_travel() const {
-  return h_ * start_.travel_v + 0.5 * h_ * h_ * start_.travel_a;
+  return step_.h * start_.travel_v + 0.5 * step_.h * step_.h * start_.travel_a;
 }
 
 // The acceleration that M meets in the balance, of the unknown of the scheme.
 VecX Inertia::acceleration_at(const VecX& u) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 =
-          (u - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
-      return ((1 - am_) * b1 + am_ * start_.b - af_ * start_.a) / (1 - af_);
+      const VecX b1 = (u - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
+                      (0.5 - step_.beta) / step_.beta * start_.b;
+      return ((1 - step_.am) * b1 + step_.am * start_.b - step_.af * start_.a) / (1 - step_.af);
     }
     case Scheme::energy_momentum:
-      return (4 / h_ * (u - u0_) - 2 * start_.v) / h_;
+      return (4 / step_.h * (u - u0_) - 2 * start_.v) / step_.h;
     case Scheme::theta:
       break;
   }
-  return (velocity_at(u) - start_.v) / (h_ * options_.xi);
+  return (velocity_at(u) - start_.v) / (step_.h * options_.xi);
 }
 
 // The velocity that C meets in the balance.
 VecX Inertia::velocity_at(const VecX& u) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 =
-          (u - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
-      return start_.v + h_ * ((1 - gamma_) * start_.b + gamma_ * b1);
+      const VecX b1 = (u - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
+                      (0.5 - step_.beta) / step_.beta * start_.b;
+      return start_.v + step_.h * ((1 - step_.gamma) * start_.b + step_.gamma * b1);
     }
     case Scheme::energy_momentum:
-      return 2 / h_ * (u - u0_);
+      return 2 / step_.h * (u - u0_);
     case Scheme::theta:
       break;
   }
-  return ((u - u0_) / h_ - (1 - options_.theta) * start_.v) / options_.theta;
+  return ((u - u0_) / step_.h - (1 - options_.theta) * start_.v) / options_.theta;
 }
 
 VecX Inertia::force(const VecX& u) {
@@ -232,8 +232,8 @@ VecX Inertia::force(const VecX& u) {
 }
 
 VecX Inertia::tangent_times(const VecX& du) const {
-  VecX out = a_u_ * (mass_.M * du);
-  if (damping_) out += v_u_ * (*damping_ * du);
+  VecX out = step_.a_u * (mass_.M * du);
+  if (damping_) out += step_.v_u * (*damping_ * du);
   return out;
 }
 
@@ -241,12 +241,14 @@ double Inertia::travel_force(double travel) const {
   const double m = options_.travel_mass;
   const double moved = travel - travel0_;
   if (uses_impulses()) {
-    const double v1 = (moved / h_ - (1 - options_.theta) * start_.travel_v) / options_.theta;
-    return (options_.travel_weight - m * (v1 - start_.travel_v) / h_) / options_.xi;
+    const double v1 = (moved / step_.h - (1 - options_.theta) * start_.travel_v) / options_.theta;
+    return (options_.travel_weight - m * (v1 - start_.travel_v) / step_.h) / options_.xi;
   }
-  const double b1 =
-      (moved - h_ * start_.travel_v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.travel_b;
-  const double a1 = ((1 - am_) * b1 + am_ * start_.travel_b - af_ * start_.travel_a) / (1 - af_);
+  const double b1 = (moved - step_.h * start_.travel_v) / (step_.beta * step_.h * step_.h) -
+                    (0.5 - step_.beta) / step_.beta * start_.travel_b;
+  const double a1 =
+      ((1 - step_.am) * b1 + step_.am * start_.travel_b - step_.af * start_.travel_a) /
+      (1 - step_.af);
   return options_.travel_weight - m * a1;
 }
 
@@ -260,29 +262,31 @@ MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const 
   const double moved = travel1 - travel0_;
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      end.b = (u1 - u0_ - h_ * start_.v) / (beta_ * h_ * h_) - (0.5 - beta_) / beta_ * start_.b;
+      end.b = (u1 - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
+              (0.5 - step_.beta) / step_.beta * start_.b;
       end.a = acceleration_at(u1);
       end.v = velocity_at(u1);
-      end.travel_b = (moved - h_ * start_.travel_v) / (beta_ * h_ * h_) -
-                     (0.5 - beta_) / beta_ * start_.travel_b;
-      end.travel_a =
-          ((1 - am_) * end.travel_b + am_ * start_.travel_b - af_ * start_.travel_a) / (1 - af_);
-      end.travel_v =
-          start_.travel_v + h_ * ((1 - gamma_) * start_.travel_b + gamma_ * end.travel_b);
+      end.travel_b = (moved - step_.h * start_.travel_v) / (step_.beta * step_.h * step_.h) -
+                     (0.5 - step_.beta) / step_.beta * start_.travel_b;
+      end.travel_a = ((1 - step_.am) * end.travel_b + step_.am * start_.travel_b -
+                      step_.af * start_.travel_a) /
+                     (1 - step_.af);
+      end.travel_v = start_.travel_v +
+                     step_.h * ((1 - step_.gamma) * start_.travel_b + step_.gamma * end.travel_b);
       break;
     }
     case Scheme::energy_momentum:
-      end.v = 2 / h_ * (u1 - u0_) - start_.v;
-      end.a = (end.v - start_.v) / h_;
+      end.v = 2 / step_.h * (u1 - u0_) - start_.v;
+      end.a = (end.v - start_.v) / step_.h;
       end.b = end.a;
       break;
     case Scheme::theta:
       end.v = velocity_at(u1);
-      end.a = (end.v - start_.v) / h_;
+      end.a = (end.v - start_.v) / step_.h;
       end.b = net + weight_;
       if (damping_) end.b -= *damping_ * end.v;
-      end.travel_v = (moved / h_ - (1 - options_.theta) * start_.travel_v) / options_.theta;
-      end.travel_a = (end.travel_v - start_.travel_v) / h_;
+      end.travel_v = (moved / step_.h - (1 - options_.theta) * start_.travel_v) / options_.theta;
+      end.travel_a = (end.travel_v - start_.travel_v) / step_.h;
       break;
   }
   // A node without mass follows the others. Its velocity is that of the increment: differences of
@@ -290,7 +294,7 @@ MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const 
   for (std::size_t dof = 0; dof < massless_.size(); ++dof) {
     if (!massless_[dof]) continue;
     const auto i = static_cast<Eigen::Index>(dof);
-    end.v[i] = (u1[i] - u0_[i]) / h_;
+    end.v[i] = (u1[i] - u0_[i]) / step_.h;
     end.a[i] = 0;
     if (!uses_impulses()) end.b[i] = 0;
   }
@@ -356,14 +360,14 @@ double Inertia::work_of_gravity(const VecX& du, double dtravel) const {
 double Inertia::damped(const MotionState& before, const MotionState& after) const {
   if (!damping_) return 0;
   const VecX v = 0.5 * (before.v + after.v);
-  return h_ * v.dot(*damping_ * v);
+  return step_.h * v.dot(*damping_ * v);
 }
 
 double Inertia::error(const MotionState& after, double energy) const {
   if (!(energy > 0)) return 0;
-  const double factor = uses_impulses() ? 0.5 : std::abs(beta_ - 1. / 6);
-  const VecX change = factor * h_ * (after.a - start_.a);
-  const double travel = factor * h_ * (after.travel_a - start_.travel_a);
+  const double factor = uses_impulses() ? 0.5 : std::abs(step_.beta - 1. / 6);
+  const VecX change = factor * step_.h * (after.a - start_.a);
+  const double travel = factor * step_.h * (after.travel_a - start_.travel_a);
   const double squared = change.dot(mass_.M * change) + options_.travel_mass * travel * travel;
   return std::sqrt(squared / (2 * energy));
 }

@@ -133,9 +133,12 @@ class Inertia : public AddedTerm {
   bool whole_ = true;                 // nothing is tied: the body is not a part or a section
 
   // of the increment
-  double h_ = 1;
-  double am_ = 0, af_ = 0, beta_ = 0.25, gamma_ = 0.5;
-  double a_u_ = 0, v_u_ = 0;  // d a/du, d v/du of the unknown
+  struct Step {
+    double h = 1;                                     // [s]
+    double am = 0, af = 0, beta = 0.25, gamma = 0.5;  // of generalised_alpha
+    double a_u = 0, v_u = 0;                          // d a/du, d v/du of the unknown
+  };
+  Step step_;
   double travel_k_ = 0;
   VecX u0_;
   double travel0_ = 0;

@@ -50,7 +50,7 @@ void ContactStep::moved(const VecX& du, double step) {
     const bool follows_travel =
         state_.starts_with_travel() && static_cast<int>(k) == state_.controlled_index;
     if (state_.contacts[k].mu > 0 && (border_.arc() || follows_travel))
-      state_.slip_from_touch(k, state_.expected);
+      state_.slip_from_touch(k, trial_.expected);
   }
 }
 

@@ -134,7 +134,8 @@ bool IncrementState::starts_with_travel() const {
 
 std::vector<Vec3> IncrementState::start_moves() const {
   if (!starts_with_travel()) return {};
-  return slip_origin_change_with_travel(*controlled(), increment_move(expected), slip_tolerance());
+  return slip_origin_change_with_travel(*controlled(), increment_move(trial.expected),
+                                        slip_tolerance());
 }
 
 // The largest movement that is imposed from t0 to the trial: it scales the error allowed in slip.

@@ -52,6 +52,7 @@ struct TrialState {
   double travel = 0;        // of the indenter under force control [mm]
   VecX pressures = {};      // of given volumes [MPa]
   double extrapolated = 0;  // of the movement of the last increment, with which this one was begun
+  VecX expected = {};       // u that it was begun with, where the start of slip follows the travel
 };
 
 // What the last linear solve found besides the displacements: reactions at its end, and what is
@@ -115,7 +116,6 @@ struct IncrementState {
   Correction next;
   // by contact, (3 n): what the increment's slip is measured from, the indenter where it began
   std::vector<VecX> u_start;
-  VecX expected;  // u that it was begun with, where the start of slip follows the travel
   SolveCost cost;
 
  private:

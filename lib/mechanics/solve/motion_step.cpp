@@ -30,7 +30,7 @@ void MotionStep::begin(double seconds) {
   if (state_.controlled_index >= 0 && !state_.controlled()->control->free()) state_.move_to_touch();
   state_.slip_from_touch();
   state_.turn_surfaces();
-  if (state_.starts_with_travel()) state_.expected = trial_.u;
+  if (state_.starts_with_travel()) trial_.expected = trial_.u;
 }
 
 // Where the body goes with the mean velocity of the last increment. The velocity at its end serves

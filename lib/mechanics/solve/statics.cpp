@@ -134,7 +134,7 @@ void Statics::begin(double t) {
   if (state_.controlled_index >= 0) state_.move_to_touch();
   state_.slip_from_touch();
   state_.turn_surfaces();
-  if (state_.starts_with_travel()) state_.expected = trial_.u;
+  if (state_.starts_with_travel()) trial_.expected = trial_.u;
   const int level = factors_.level_of_increment(now_, t, now_.travel - before_.travel);
   if (level != factors_.factor.level()) factors_.take_level(level);
 }
@@ -310,9 +310,9 @@ void Statics::restart() {
 void Statics::follow(const Arc& arc) {
   border_.begin(arc);
   if (state_.contacts.empty() && state_.surfaces.empty()) return;
-  state_.expected = trial_.u;
+  trial_.expected = trial_.u;
   for (std::size_t k = 0; k < state_.contacts.size(); ++k)
-    if (state_.contacts[k].mu > 0) state_.slip_from_touch(k, state_.expected);
+    if (state_.contacts[k].mu > 0) state_.slip_from_touch(k, trial_.expected);
   state_.turn_surfaces();
   factors_.take_level(factors_.factor.levels().all());
 }

@@ -119,9 +119,8 @@ class Statics {
     if (const MixedTangent* mixed = factors_.factor.mixed()) return &mixed->solver();
     return nullptr;
   }
-  double motion_error() const {
-    return motion_.error();
-  }  // of the trial of a body in motion (Inertia::error())
+  // of the trial of a body in motion (Inertia::error())
+  double motion_error() const { return motion_.error(); }
   const Inertia* inertia() const { return state_.options.inertia; }
   bool gave_up_iterating() const { return factors_.factor.gave_up_iterating(); }
 
