@@ -35,11 +35,12 @@ ForwardInput SceneTests::input_at(const VecX& p, std::size_t scene) const {
     const double value = p[static_cast<Eigen::Index>(i)];
     const std::string& path = numbers_[i].path;
     if (!numbers_[i].contact.empty()) input.friction[numbers_[i].contact] = value;
-    if (!path.empty() && forward_[scene]->number(path)) input.numbers[path] = value;
+    if (!path.empty() && scenes_[scene].run->number(path)) input.numbers[path] = value;
   }
-  if (const auto angle = angle_of_.find(scene); angle != angle_of_.end())
-    input.fibre_angle = p[static_cast<Eigen::Index>(angle->second)];
-  if (!options_.quotients) input.slopes = slopes_;
+  if (const auto angle = scenes_[scene].angle)
+    input.fibre_angle = p[static_cast<Eigen::Index>(*angle)];
+  if (options_.quotients) return input;
+  for (const Slope& slope : slopes_) input.slopes.push_back(slope.key);
   return input;
 }
 
@@ -52,7 +53,7 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Wanted& one = wanted[i];
-    keys.push_back(key_of(*forward_[one.scene], one.input, looks_[one.scene]));
+    keys.push_back(key_of(*scenes_[one.scene].run, one.input, scenes_[one.scene].observed));
     paths[i] = cache_->find(keys[i]);
     if (!paths[i]) missing.push_back(i);
   }
@@ -64,27 +65,28 @@ std::vector<SceneTests::Path> SceneTests::solved(const std::vector<Wanted>& want
         const Wanted& one = wanted[i];
         ForwardPath path;
         try {
-          path = forward_[one.scene]->solve(one.input);
+          path = scenes_[one.scene].run->solve(one.input);
         } catch (const Failure& failure) {
           const bool of_trial =
               failure.code() == Exit::config || failure.code() == Exit::not_converged;
-          if (!of_trial || !solvable_[one.scene]) throw;  // a scene that never was, or a signal
+          if (!of_trial || !scenes_[one.scene].solvable)
+            throw;  // a scene that never was, or a signal
           path.why = failure.what();
         }
         paths[i] = cache_->keep(keys[i], std::move(path));
       },
       [](int, int) {});
-  runs_ += static_cast<int>(missing.size());
-  seconds_ += cpu_seconds() - begun;
+  effort_.runs += static_cast<int>(missing.size());
+  effort_.seconds += cpu_seconds() - begun;
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (paths[i]->complete) solvable_[wanted[i].scene] = true;
+    if (paths[i]->complete) scenes_[wanted[i].scene].solvable = true;
   return paths;
 }
 
 // The runs of all scenes at p. Returns false, and keeps the reason, if one does not reach its end.
 bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
   std::vector<Wanted> wanted;
-  for (std::size_t scene = 0; scene < forward_.size(); ++scene)
+  for (std::size_t scene = 0; scene < scenes_.size(); ++scene)
     wanted.push_back({scene, input_at(p, scene)});
   paths = solved(wanted);
   for (const Path& path : paths)
@@ -168,7 +170,7 @@ bool SceneTests::model(const VecX& p, VecX& values) {
     values.segment(first_[i], of_test.size()) = of_test;
   }
   if (options_.say)
-    options_.say(fmt::format("run {}: chi-square {:.6g}", runs_,
+    options_.say(fmt::format("run {}: chi-square {:.6g}", effort_.runs,
                              weight_.cwiseProduct(values - measured_).squaredNorm()));
   return true;
 }
@@ -199,7 +201,7 @@ bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& 
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
       VecX column;
       if (!read(tests_[i], path, path.slopes[k], p, Read::values, column)) return false;
-      for (const SlopeOf& of : slope_of_[k])
+      for (const SlopeOf& of : slopes_[k].of)
         if (!of.scene || *of.scene == tests_[i].run)
           J.block(first_[i], static_cast<Eigen::Index>(of.number), column.size(), 1) +=
               of.factor * column;
@@ -228,7 +230,7 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
     VecX moved = p;
     moved[k] += h;
     steps.push_back({i, moved[k] - p[k]});
-    for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
+    for (std::size_t scene = 0; scene < scenes_.size(); ++scene) {
       wanted.push_back({scene, input_at(moved, scene)});
       if (!all) wanted.back().input.slopes.clear();
     }
@@ -239,7 +241,7 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
     for (std::size_t i = 0; i < tests_.size(); ++i) {
       const SceneTest& test = tests_[i];
       const ForwardPath& path = *paths[test.run];
-      const ForwardPath& other = *moved[step * forward_.size() + test.run];
+      const ForwardPath& other = *moved[step * scenes_.size() + test.run];
       VecX here, there;
       if (!other.complete || !read(test, path, path.values, p, Read::values, here) ||
           !read(test, other, other.values, p, Read::values, there))
@@ -326,18 +328,18 @@ std::vector<HeldNumber> SceneTests::held_numbers(const VecX& p) {
   add_held_of_instruments(p, paths, held);
   constexpr double trial_friction = 0.05;
   std::map<std::string, std::size_t> known;
-  for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
+  for (std::size_t scene = 0; scene < scenes_.size(); ++scene) {
     ForwardInput input = input_at(p, scene);
     input.slopes.clear();
     std::vector<std::pair<std::string, ForwardInput>> frictionless;
-    for (const std::string& path : forward_[scene]->uncertain_numbers()) {
+    for (const std::string& path : scenes_[scene].run->uncertain_numbers()) {
       if (std::ranges::find(law_.free, path, &FreeParameter::key) != law_.free.end()) continue;
-      const double value = *forward_[scene]->number(path);
+      const double value = *scenes_[scene].run->number(path);
       if (path.ends_with(".friction") && value == 0) {
         ForwardInput rough = input;
         rough.friction[path.substr(9, path.rfind('.') - 9)] = trial_friction;
         frictionless.emplace_back(path, rough);
-      } else if (forward_[scene]->differentiates(path, input.law)) {
+      } else if (scenes_[scene].run->differentiates(path, input.law)) {
         input.slopes.push_back(path);
       }
     }
@@ -350,7 +352,7 @@ std::vector<HeldNumber> SceneTests::held_numbers(const VecX& p) {
                          double factor, const ForwardPath* less) {
       const auto [at, is_new] = known.insert({path, held.size()});
       if (is_new)
-        held.push_back({path, unit_of_config_number(path), *forward_[scene]->number(path),
+        held.push_back({path, unit_of_config_number(path), *scenes_[scene].run->number(path),
                         VecX::Zero(measured_.size())});
       for (std::size_t k = 0; k < tests_.size(); ++k) {
         if (tests_[k].run != scene) continue;
@@ -417,7 +419,7 @@ std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
       one.measured.assign(measured.data(), measured.data() + rows);
       one.model.assign(model.data(), model.data() + rows);
       for (Vec3& place : one.places)
-        if (std::isnan(place[1])) place[1] = top_[test.run];
+        if (std::isnan(place[1])) place[1] = scenes_[test.run].top;
       all.push_back(std::move(one));
     }
   }

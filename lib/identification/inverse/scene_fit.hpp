@@ -68,11 +68,10 @@ class SceneTests : public FurtherTests {
   // none do
   std::shared_ptr<SceneTests> on_longer_cells(double factor) const;
 
-  int runs() const { return runs_; }               // made so far
-  double run_seconds() const { return seconds_; }  // of CPU, in them
-  const std::string& last_failure() const {
-    return failure_;
-  }  // why the scene of a trial set has no end
+  int runs() const { return effort_.runs; }               // made so far
+  double run_seconds() const { return effort_.seconds; }  // of CPU, in them
+  // why the scene of a trial set has no end
+  const std::string& last_failure() const { return failure_; }
   // Sentences about tests that were read beyond the end of a path at the offsets of p.
   std::vector<std::string> extrapolations(const VecX& p) const;
   std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
@@ -80,7 +79,7 @@ class SceneTests : public FurtherTests {
   // scene more at p, and one more without friction.
   std::vector<HeldNumber> held_numbers(const VecX& p);
   const std::vector<SceneTest>& tests() const { return tests_; }
-  std::size_t scenes() const { return forward_.size(); }
+  std::size_t scenes() const { return scenes_.size(); }
 
  private:
   struct Number {         // a free parameter as a scene sees it
@@ -128,29 +127,37 @@ class SceneTests : public FurtherTests {
   std::vector<std::string> files_;
   FitProblem law_;  // without further tests
   std::vector<Number> numbers_;
-  std::vector<std::shared_ptr<ForwardRun>> forward_;
-  std::vector<std::size_t> run_of_;  // by item of data
-  std::vector<std::string> looks_;   // what each forward run is asked, for its key in the cache
-  std::vector<bool> solvable_;       // which have had an end
-  std::vector<double> top_;          // of the mesh of each forward run [mm]
+  struct Scene {
+    std::shared_ptr<ForwardRun> run;
+    std::string observed;              // what its runs are asked, for their key in the cache
+    double top = 0;                    // of its mesh [mm]
+    bool solvable = false;             // a run of it has had an end
+    std::optional<std::size_t> angle;  // number that is its fibre_angle
+  };
+  std::vector<Scene> scenes_;
+  std::vector<std::size_t> run_of_;  // scene by item of data
   bool any_longer_ = false, with_friction_ = false;
-  std::vector<std::string> slopes_;  // numbers by which runs are differentiated, and what changes
-                                     // of them each parameter makes
   struct SlopeOf {
     std::size_t number;
     double factor;
     std::optional<std::size_t> scene;
   };
-  std::vector<std::vector<SlopeOf>> slope_of_;
-  std::map<std::size_t, std::size_t> angle_of_;  // scene: number that is its fibre_angle
+  struct Slope {  // a number by which runs are differentiated, and what each parameter makes of it
+    std::string key;
+    std::vector<SlopeOf> of;
+  };
+  std::vector<Slope> slopes_;
   std::vector<SceneTest> tests_;
   std::vector<Eigen::Index> first_;  // of the values of each test
   VecX measured_, weight_;
   std::vector<Eigen::Index> curves_;
   std::shared_ptr<RunCache> cache_;
   SceneFitOptions options_;
-  int runs_ = 0;
-  double seconds_ = 0;
+  struct Effort {
+    int runs = 0;
+    double seconds = 0;  // of CPU
+  };
+  Effort effort_;
   std::string failure_;
 };
 

@@ -100,7 +100,6 @@ SceneTests::SceneTests(const FitConfig& config, const Where& where, const FitPro
   run_of_.assign(config_.data.size(), 0);
   for (std::size_t i = 0; i < config_.data.size(); ++i)
     if (config_.data[i].is_scene()) add_run(i, longer, known);
-  solvable_.assign(forward_.size(), false);
   add_tests();
   add_numbers();
 }
@@ -118,7 +117,7 @@ void SceneTests::add_run(std::size_t item, double longer,
   std::string scene_name =
       fmt::format("{}\n{}\n{}", data.solve.path, data.mesh.path, data.fibre_angle);
   if (free_angle(item)) scene_name += fmt::format("\nof item {}", item);
-  const auto [at, is_new] = known.insert({scene_name, forward_.size()});
+  const auto [at, is_new] = known.insert({scene_name, scenes_.size()});
   run_of_[item] = at->second;
   if (!is_new) return;
   Loaded<SolveConfig> loaded = scene_config(data, item, where_);
@@ -145,9 +144,8 @@ void SceneTests::add_run(std::size_t item, double longer,
     }
   double top = 0;
   for (const Vec3& x : run->mesh().X) top = std::max(top, x[1]);
-  top_.push_back(top);
   with_friction_ = with_friction_ || has_friction(scene);
-  forward_.push_back(std::move(run));
+  scenes_.push_back({std::move(run), "", top, false, {}});
 }
 
 // Whether an offset or the compliance of an item of `data` is a free parameter.
@@ -163,7 +161,7 @@ bool SceneTests::offset_free(std::size_t item) const {
 
 // Reads all files, defines their observations and stops, and collects measured values and weights.
 void SceneTests::add_tests() {
-  std::vector<std::vector<Observation>> observations(forward_.size());
+  std::vector<std::vector<Observation>> observations(scenes_.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < config_.data.size(); ++i) {
     const FitData& data = config_.data[i];
@@ -184,7 +182,7 @@ void SceneTests::add_tests() {
           "{}_{}", read.name.substr(0, read.name.find_last_not_of("_0123456789") + 1), n);
     double slack = 1e-6;  // part of the path by which values may lie beyond its end
     if (offset_free(i)) slack = beyond_path;
-    tests_.push_back(scene_test(data, i, read, *forward_[run], config_.noise(), slack, where_,
+    tests_.push_back(scene_test(data, i, read, *scenes_[run].run, config_.noise(), slack, where_,
                                 observations[run]));
     tests_.back().run = run;
   }
@@ -193,16 +191,16 @@ void SceneTests::add_tests() {
     throw Failure(Exit::config,
                   Error{where_("data"), "data", fmt::format("{} files by --curves", files_.size()),
                         fmt::format("{}, one for each scene without a file", next), ""});
-  for (std::size_t run = 0; run < forward_.size(); ++run) {
+  for (std::size_t run = 0; run < scenes_.size(); ++run) {
     std::vector<const SceneTest*> of_run;
     for (const SceneTest& test : tests_)
       if (test.run == run) of_run.push_back(&test);
     const std::vector<double> stops =
-        stops_of(of_run, config_, forward_[run]->config().path.largest_increment());
+        stops_of(of_run, config_, scenes_[run].run->config().path.largest_increment());
     // cells that were lengthened do not stand in the config
-    looks_.push_back(fmt::format("{} nodes\n", forward_[run]->mesh().n_nodes()) +
-                     looks_of(observations[run], stops));
-    forward_[run]->observe(observations[run], stops);
+    scenes_[run].observed = fmt::format("{} nodes\n", scenes_[run].run->mesh().n_nodes()) +
+                            looks_of(observations[run], stops);
+    scenes_[run].run->observe(observations[run], stops);
   }
   std::vector<double> measured, weight;
   for (const SceneTest& test : tests_) {
@@ -232,8 +230,8 @@ void SceneTests::add_numbers() {
       if (number->of == SceneNumber::Of::friction) {
         one.contact = number->contact;
         std::set<std::string> contacts;
-        for (const auto& run : forward_)
-          for (const auto& [name, contact] : run->config().contacts) contacts.insert(name);
+        for (const Scene& scene : scenes_)
+          for (const auto& [name, contact] : scene.run->config().contacts) contacts.insert(name);
         std::string expected = "none: no scene has an indenter";
         if (!contacts.empty()) expected = fmt::format("one of {}", fmt::join(contacts, ", "));
         if (!contacts.count(one.contact))
@@ -246,8 +244,8 @@ void SceneTests::add_numbers() {
         continue;
       } else if (number->of == SceneNumber::Of::fibre_angle) {
         const std::size_t run = run_of_[number->data];
-        angle_of_[run] = i;
-        const auto& field = forward_[run]->config().fibre_field;
+        scenes_[run].angle = i;
+        const auto& field = scenes_[run].run->config().fibre_field;
         if (field && !std::holds_alternative<FormulaField>(*field))
           refuse(p.key + " of a scene whose directions are read at points",
                  "directions by a formula: fibre_field: {formula: {alpha: ...}}");
@@ -279,13 +277,9 @@ void SceneTests::add_numbers() {
 // it.
 void SceneTests::add_slope(const std::string& key, std::size_t number, double factor,
                            std::optional<std::size_t> scene) {
-  const auto known = std::ranges::find(slopes_, key);
-  if (known != slopes_.end()) {
-    slope_of_[static_cast<std::size_t>(known - slopes_.begin())].push_back({number, factor, scene});
-    return;
-  }
-  slopes_.push_back(key);
-  slope_of_.push_back({{number, factor, scene}});
+  auto known = std::ranges::find(slopes_, key, &Slope::key);
+  if (known == slopes_.end()) known = slopes_.insert(slopes_.end(), Slope{key, {}});
+  known->of.push_back({number, factor, scene});
 }
 
 bool SceneTests::free_angle(std::size_t item) const {
@@ -301,8 +295,8 @@ void SceneTests::add_config_number(const std::string& path, std::size_t number,
                                    const std::function<void(std::string, std::string)>& refuse) {
   bool any = false;
   bool differentiated = true;
-  for (std::size_t scene = 0; scene < forward_.size(); ++scene) {
-    const ForwardRun& run = *forward_[scene];
+  for (std::size_t scene = 0; scene < scenes_.size(); ++scene) {
+    const ForwardRun& run = *scenes_[scene].run;
     if (!run.number(path)) continue;
     any = true;
     if (const std::string why = run.reason_fixed(path); !why.empty())
@@ -311,8 +305,8 @@ void SceneTests::add_config_number(const std::string& path, std::size_t number,
   }
   if (!any) {
     std::string why = "no scene has it";
-    for (const auto& run : forward_)
-      if (const std::string reason = run->reason_fixed(path); !reason.empty()) why = reason;
+    for (const Scene& scene : scenes_)
+      if (const std::string reason = scene.run->reason_fixed(path); !reason.empty()) why = reason;
     refuse(path + ": " + why,
            "a number of a scene, such as mesh.bodies[0].thickness or "
            "contacts.<name>.rigid.sphere.radius");
