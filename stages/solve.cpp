@@ -111,20 +111,20 @@ void run_worker_rank(Run& run, bool dry_run, const SolveConfig& config) {
 // construction: each refers to those above it.
 struct Observers {
   RecoveredPath recovered;  // error estimate by recovery
-  std::string loose;        // motions that only contact restrains, in words
+  std::string loose;        // motions that only contact resists, in words
   std::optional<Sensitivity> sensitivity;
   std::optional<Uncertainty> uncertainty;
   std::optional<Recording> recording;  // writes the solution file
 
-  Observers(const Run& run, const SolveConfig& config)
-      : recovered(run, config, config.estimate == EstimateBy::recovery) {}
+  Observers(const Run& run, const SolveConfig& config, std::string only_by_contact)
+      : recovered(run, config, config.estimate == EstimateBy::recovery),
+        loose(std::move(only_by_contact)) {}
 
   // Checks the memory and opens the output. Only rank 0 does so; if it fails, all ranks end.
   void prepare(const Case& input, const SolveConfig& config, Run& run, RunWatch& watch) {
     const Job<SolveConfig>& job = input.job;
     on_root_rank(run.shared_by(), [&] {
       check_memory(run.statics, watch.of_mesh(), config.threads);
-      loose = held_by_contact(run, job.where);
       sensitivity.emplace(run, config, job.where);
       uncertainty.emplace(input.parameters, run, *sensitivity);
       recording.emplace(run, watch, config, job.identity, job.output,
@@ -180,6 +180,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
 
   check_vibration(config, run, job.where);
   const double fibre_jump = report_scene(job.voice(), run);
+  std::string loose = held_by_contact(run, job.where);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
   if (branch) watch.know(branch->bifurcation);
@@ -187,7 +188,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
     return report_forecast(job.voice(), config, input.material, job.where, run, watch,
                            model.seconds_of_cuts(run));
 
-  Observers observers(run, config);
+  Observers observers(run, config, std::move(loose));
   observers.prepare(input, config, run, watch);
   run.resume_all();
   Progress progress(job.voice(), run);

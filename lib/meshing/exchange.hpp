@@ -29,7 +29,8 @@ struct SolidOptions {
   bool is_surface = false;  // triangles (STL) that enclose it, else CAD (STEP)
   double edge = 1;          // length of the cells, about
   CellType cells = CellType::hex8;
-  double seal = 0;  // width up to which holes of a surface are filled
+  double seal = 0;   // width up to which holes of a surface are filled
+  double scale = 1;  // mm per unit of the file, for messages
 };
 // A solid meshed by gmsh, lengths in units of the file: face_<n> are its faces, body_<n> its bodies
 // where there are several. A surface that stays open is refused; `notes` states what was filled and

@@ -55,7 +55,7 @@ std::vector<Complaint> FromFile::complaints() const {
   }
   return {{"path", "found \"" + file.path + "\"",
            "a mesh, .msh of Gmsh or .inp of Abaqus or CalculiX, a .step or an .stl",
-           "other formats: make a hexahedral mesh of them with gmsh"}};
+           "other surfaces (.ply, .obj): save them as .stl; other meshes: as .msh by gmsh"}};
 }
 
 namespace {
@@ -67,7 +67,7 @@ Mesh read_by_kind(const FromFile& from, CellType cells, std::vector<std::string>
   const std::string kind = kind_of(path);
   if (kind == "msh") return read_msh(path, notes);
   if (kind == "inp") return read_inp(path, notes);
-  SolidOptions options{kind == "stl", *from.edge / from.scale, cells, 0};
+  SolidOptions options{kind == "stl", *from.edge / from.scale, cells, 0, from.scale};
   if (from.seal) options.seal = *from.seal / from.scale;
   return read_solid(path, options, notes);
 }

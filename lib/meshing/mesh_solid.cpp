@@ -1,4 +1,5 @@
 // Solids of CAD, and those that triangles enclose, meshed by gmsh.
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
@@ -36,7 +37,11 @@ struct Attempt {
 class SolidMesher {
  public:
   SolidMesher(const std::string& path, const SolidOptions& options)
-      : path_(path), is_surface_(options.is_surface), edge_(options.edge), seal_(options.seal) {
+      : path_(path),
+        is_surface_(options.is_surface),
+        edge_(options.edge),
+        seal_(options.seal),
+        scale_(options.scale) {
     hexahedra_ = reference(options.cells).hexahedron();
     if (is_surface_)
       read_closed_surface();
@@ -57,6 +62,7 @@ class SolidMesher {
   bool is_surface_;
   double edge_;
   double seal_;
+  double scale_;                     // mm per unit of the file
   std::vector<std::string> sealed_;  // notes
   bool hexahedra_ = true;
   std::string step_;
@@ -72,17 +78,32 @@ class SolidMesher {
     Triangles triangles = read_surface(path_, FlatTriangles::allowed);
     for (const Hole& hole : holes_of(triangles)) {
       if (hole.width > seal_ || !fill(hole, triangles)) continue;
-      sealed_.push_back(fmt::format(
-          "filled a hole of {} edges, {:.3g} wide, at ({:.4g}, {:.4g}, {:.4g})", hole.points.size(),
-          hole.width, hole.middle[0], hole.middle[1], hole.middle[2]));
+      sealed_.push_back(
+          fmt::format("filled a hole of {} edges, {:.3g} mm wide, at ({:.4g}, {:.4g}, {:.4g}) mm",
+                      hole.points.size(), scale_ * hole.width, scale_ * hole.middle[0],
+                      scale_ * hole.middle[1], scale_ * hole.middle[2]));
     }
     require_closed(triangles, path_);
     enclosed_ = enclosed_volume(triangles);
+    require_edge_within(triangles);
     for (const Vec3& point : triangles.points)
       for (int i = 0; i < 3; ++i) surface_.X.push_back(point[i]);
     for (const std::array<int, 3>& corners : triangles.corners)
       for (const int corner : corners)
         surface_.corners.push_back(static_cast<std::size_t>(corner) + 1);
+  }
+
+  // Elements longer than half of the surface cannot follow it: mostly the file is in other units.
+  void require_edge_within(const Triangles& triangles) const {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& point : triangles.points) box.extend(point);
+    const double longest = box.sizes().maxCoeff();
+    if (edge_ <= 0.5 * longest) return;
+    refuse(fmt::format("edge: {:.3g} mm for a surface that is {:.3g} mm long", scale_ * edge_,
+                       scale_ * longest),
+           fmt::format("at most half of it, {:.3g} mm", 0.5 * scale_ * longest),
+           scale_ == 1 && longest < 1 ? "is the file in metres? then scale: 1000 next to edge"
+                                      : "scale gives the mm of one unit of the file");
   }
 
   // gmsh is given nothing but STEP, whatever the file is called.
@@ -150,9 +171,10 @@ class SolidMesher {
     constexpr double noted = 0.005;
     constexpr double refused = 0.25;
     if (std::abs(change) < noted) return;
+    const double per_unit = scale_ * scale_ * scale_;
     const std::string found =
         fmt::format("the mesh has {:.3g} mm^3, the surface encloses {:.3g} mm^3 ({:+.2g} %)",
-                    made.quality.volume, enclosed_, 100 * change);
+                    per_unit * made.quality.volume, per_unit * enclosed_, 100 * change);
     std::string other;
     if (hexahedra_) other = ", and so does cells: tet15 at the same edge";
     if (std::abs(change) > refused)

@@ -535,10 +535,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       }
       if (config.accuracy && config.accuracy->at == AccuracyAt::every_step)
         estimate = worst_of(steps);
-      if (!q.of_travel()) {
-        for (const ErrorEstimate& e : steps) out.along[q.name].push_back(e.total());
-        out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
-      }
+      for (const ErrorEstimate& e : steps) out.along[q.name].push_back(e.total());
+      out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
     }
     if (q.name == "pull_off") estimate->increments -= pull_between_steps(itself.path);
     if (q.of_force()) estimate->left_out = all.left_out(q);

@@ -162,7 +162,7 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config,
 struct PathErrors {
   std::vector<ErrorEstimate> at_end;
   std::map<std::string, std::vector<double>>
-      along;          // by force: total() at each step of the run [N]; empty by dual solutions
+      along;          // by quantity: total() at each step of the run; empty by dual solutions
   double growth = 0;  // power of 1 / length of the cells with which the CPU time grew; 0: not known
   std::vector<std::string> not_known;  // why a quantity is not in at_end, a sentence each
   std::vector<double> of_cells =

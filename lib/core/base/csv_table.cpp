@@ -234,6 +234,35 @@ std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
   return std::nullopt;
 }
 
+// The names above the first rows of numbers, below what a machine writes about the test: the top of
+// the lines of texts, without a gap, that have as many cells as the last row. Nothing where that is
+// the first line of the file.
+std::optional<HeaderPosition> header_below_preamble(const std::vector<CsvLine>& lines,
+                                                    const std::vector<std::size_t>& plain,
+                                                    const std::string& separators) {
+  const auto all_texts = [](const CsvRow& row) {
+    return std::none_of(row.cells.begin(), row.cells.end(),
+                        [](const CsvCell& c) { return digits_of(c.text).number; });
+  };
+  for (char separator : separators) {
+    const auto row = [&](std::size_t k) {
+      return row_of(lines[plain[k]], separator);
+    };
+    const CsvRow last = row(plain.size() - 1);
+    if (last.cells.size() < 2 || !all_numbers(last)) continue;
+    const std::size_t columns = last.cells.size();
+    std::size_t numbers = 0;
+    while (row(numbers).cells.size() != columns || !all_numbers(row(numbers))) ++numbers;
+    std::size_t top = numbers;
+    while (top > 0 && lines[plain[top - 1]].number + 1 == lines[plain[top]].number &&
+           row(top - 1).cells.size() == columns && all_texts(row(top - 1)))
+      --top;
+    if (top == 0 || top == numbers) continue;
+    return HeaderPosition{row(top), plain[top] + 1, separator};
+  }
+  return std::nullopt;
+}
+
 // Without a line that the caller recognises: the first line with the first separator that splits
 // both it and the last line, or the comment above it if it has numbers only.
 HeaderPosition first_header(const std::vector<CsvLine>& lines, const std::string& separators,
@@ -242,6 +271,7 @@ HeaderPosition first_header(const std::vector<CsvLine>& lines, const std::string
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].comment) plain.push_back(i);
   if (plain.empty()) return {};
+  if (auto header = header_below_preamble(lines, plain, separators)) return *std::move(header);
   const CsvLine &first = lines[plain.front()], &last = lines[plain.back()];
   char separator = ',';
   for (char c : separators)

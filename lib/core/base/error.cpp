@@ -50,6 +50,14 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest(const std::string& name, const std::vector<std::string>& known) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  const auto same = std::find_if(known.begin(), known.end(), [&](const std::string& k) {
+    return k != name && lower(k) == lower(name);
+  });
+  if (same != known.end()) return *same;
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& k : known)  // something of the name must remain

@@ -199,6 +199,10 @@ struct Reading {
           size(width, column, width_key, "the width of the specimen in mm, across this force");
       axis.stress_factor /=
           size(format.thickness, column, "thickness", "the thickness of the specimen in mm");
+      if (width && format.thickness && *format.thickness > 5 * *width)
+        note(column, fmt::format("thickness: {:.4g} mm is {:.3g} times the width; is it in "
+                                 "micrometres?",
+                                 *format.thickness, *format.thickness / *width));
       named = StressMeasure::nominal;
     }
     const auto measure =

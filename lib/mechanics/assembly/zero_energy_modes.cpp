@@ -10,7 +10,7 @@
 
 namespace langer {
 
-std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
+RigidMotions rigid_motions(const Mesh& mesh, const Dofs& dofs) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& X : mesh.X) centre += X / mesh.n_nodes();
   double size = 0;
@@ -48,12 +48,16 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   };
   const SymmetricEigen all = symmetric_eigen(M);
   const int free = count(all.values);
-  if (free == 0) return "";
+  if (free == 0) return {};
   const Mat3 translations = M.topLeftCorner<3, 3>();
   const int moves = count(principal_values(translations));
-  if (free > 1)
-    return fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)",
-                       free, moves, free - moves);
+  RigidMotions found{moves, free - moves, ""};
+  if (free > 1) {
+    found.words =
+        fmt::format("the supports leave the body {} rigid motions ({} along, {} about an axis)",
+                    free, moves, free - moves);
+    return found;
+  }
   const Vec3 t = all.vectors.col(0).head<3>();
   const Vec3 w = all.vectors.col(0).tail<3>() / size;
   const auto text = [](Vec3 x) {
@@ -63,10 +67,19 @@ std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
   const auto upright = [](Vec3 x) {
     return Vec3(x.normalized() * (x.sum() < 0 ? -1 : 1));
   };
-  if (moves == 1)
-    return fmt::format("the supports leave the body free to move along {}", text(upright(t)));
-  return fmt::format("the supports leave the body free to turn about the axis {} through {} mm",
-                     text(upright(w)), text(centre + w.cross(t) / w.squaredNorm()));
+  if (moves == 1) {
+    found.words =
+        fmt::format("the supports leave the body free to move along {}", text(upright(t)));
+  } else {
+    found.words =
+        fmt::format("the supports leave the body free to turn about the axis {} through {} mm",
+                    text(upright(w)), text(centre + w.cross(t) / w.squaredNorm()));
+  }
+  return found;
+}
+
+std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs) {
+  return rigid_motions(mesh, dofs).words;
 }
 
 }  // namespace langer

@@ -10,7 +10,11 @@
 
 namespace langer {
 
-std::string zero_energy_modes(const Mesh& mesh,
-                              const Dofs& dofs);  // in words; empty where the body is held
+struct RigidMotions {
+  int along = 0, about = 0;  // translations and rotations that are free
+  std::string words;         // empty where the body is held
+};
+RigidMotions rigid_motions(const Mesh& mesh, const Dofs& dofs);
+std::string zero_energy_modes(const Mesh& mesh, const Dofs& dofs);  // their words
 
 }  // namespace langer

@@ -77,7 +77,7 @@ const StageSpec post_stage{
 const StageSpec gather_stage{"gather",
                              "Collects one quantity or several over a sweep.",
                              {{.name = "curves",
-                               .says = "a member of the sweep: any file with a /summary",
+                               .says = "results of each run of the sweep, such as curves: post or curves: fit",
                                .made_by = {"post", "layers", "fit", "sensitivity", "mesh", "solve"},
                                .several = true,
                                .members = true},

@@ -184,9 +184,22 @@ std::string estimated_word(const ColumnChoice& c) {
   return "";
 }
 
-// The history with the estimated error of a column; empty if it has none.
-std::string error_history(const ColumnChoice& c) {
+bool is_travel(const ColumnChoice& c) {
+  return c.history && c.history->starts_with("travel_") && !c.history->ends_with("_error");
+}
+
+// The history with the estimated error of a column; empty if it has none. The travel of the
+// indenter is u_ind, too, where one is controlled by its force.
+std::string error_history(const ColumnChoice& c, const std::vector<std::string>& histories) {
+  if (is_travel(c)) return error_of(*c.history);
   const std::string word = estimated_word(c);
+  if (word == "u_ind") {
+    const auto is_of_travel = [](const std::string& history) {
+      return history.starts_with("travel_") && history.ends_with("_error");
+    };
+    const auto found = std::ranges::find_if(histories, is_of_travel);
+    if (std::ranges::count_if(histories, is_of_travel) == 1) return *found;
+  }
   if (is_torque(c) || word == "force" || word == "pull_off" || word == "von_mises_max")
     return error_of(word);
   if (word == "u_y" && column_name(c) == "apex_height") return error_of("apex_height");
@@ -204,7 +217,7 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
   for (const ColumnChoice& c : columns) {
     out.push_back(c);
     const std::string word = estimated_word(c);
-    if (word.empty()) continue;
+    if (word.empty() && !is_travel(c)) continue;
     // Adds a column of a history, if the solver wrote it and no column has its name.
     const auto add = [&](const std::string& history, const std::string& name) {
       if (!contains(histories, history) || contains(names, name)) return;
@@ -214,7 +227,7 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
       out.push_back(further);
       names.push_back(name);
     };
-    add(error_history(c), error_of(column_name(c)));
+    add(error_history(c, histories), error_of(column_name(c)));
     if (word == "force") add("force_deviation", column_name(c) + "_deviation");
     const std::string prefix = derivative_prefix(word, c);
     for (const std::string& history : histories)

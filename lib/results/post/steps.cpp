@@ -30,6 +30,9 @@ std::optional<StepChoice> parse_step(const std::string& text) {
 
 namespace {
 
+// t is a sum of increments, and a number in a config may be rounded to six digits.
+constexpr double close = 6e-7;
+
 // The column that a choice by value refers to.
 const std::vector<double>& column_of(const StepChoice& choice, const std::vector<double>& t,
                                      const std::vector<double>& u_ind) {
@@ -47,10 +50,9 @@ int row_of(const StepChoice& choice, const std::vector<double>& t,
     if (choice.row < n) return choice.row;
     return -1;
   }
-  // t is a sum of increments and has as many rounding errors as steps.
   const std::vector<double>& reached = column_of(choice, t, u_ind);
   for (std::size_t i = 0; i < reached.size(); ++i)
-    if (reached[i] >= choice.value - 1e-12) return static_cast<int>(i);
+    if (reached[i] >= choice.value - close) return static_cast<int>(i);
   return -1;
 }
 
@@ -58,7 +60,7 @@ bool is_exact(const StepChoice& choice, int row, const std::vector<double>& t,
               const std::vector<double>& u_ind) {
   if (row < 0) return false;
   if (choice.by == StepChoice::By::last || choice.by == StepChoice::By::row) return true;
-  return std::abs(column_of(choice, t, u_ind)[row] - choice.value) <= 1e-9;
+  return std::abs(column_of(choice, t, u_ind)[row] - choice.value) <= close;
 }
 
 }  // namespace langer

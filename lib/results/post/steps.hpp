@@ -21,7 +21,7 @@ std::optional<StepChoice> parse_step(const std::string& text);  // nothing if it
 // The row of the chosen state, or -1. t ascends from the unloaded state.
 int row_of(const StepChoice& choice, const std::vector<double>& t,
            const std::vector<double>& u_ind = {});
-// Whether the row exists and is exactly at the chosen place, to nine digits.
+// Whether the row exists and is exactly at the chosen place, to six digits.
 bool is_exact(const StepChoice& choice, int row, const std::vector<double>& t,
               const std::vector<double>& u_ind);
 

@@ -65,10 +65,16 @@ class ConstraintBuilder {
       const bool other_way = to_[dof].value == to.value;
       errors.push_back(
           {where_(key), key,
-           fmt::format("asks for {} at a node that {} sets to {}{}", words(wanted), named_by_[dof],
-                       words(to_[dof], false),
-                       other_way && !turn && !to_[dof].turn ? " by another history" : ""),
-           "one value for each direction of a node", ""});
+           fmt::format("asks for {} at a node that {} sets to {}{}: at ({:.4g}, {:.4g}, "
+                       "{:.4g}) mm",
+                       words(wanted), named_by_[dof], words(to_[dof], false),
+                       other_way && !turn && !to_[dof].turn ? " by another history" : "",
+                       mesh_.X[static_cast<std::size_t>(node)][0],
+                       mesh_.X[static_cast<std::size_t>(node)][1],
+                       mesh_.X[static_cast<std::size_t>(node)][2]),
+           "one value for each direction of a node",
+           "the two sets share it: leave the direction out of one of the keys, or the node out of "
+           "one of the sets"});
       return false;
     }
     named_by_[dof] = key;

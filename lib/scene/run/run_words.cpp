@@ -6,9 +6,33 @@
 
 namespace langer {
 
+namespace {
+
+RigidMotions free_motions(const Run& run) {
+  return rigid_motions(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
+}
+
+// One indenter that pushes a body which nothing else holds or loads only moves it away. One of
+// triangles may hold it from several sides.
+bool is_pushed_away(const Run& run, const RigidMotions& free) {
+  if (free.along < 3 || run.scene.contacts.size() != 1) return false;
+  const RigidContact& contact = run.scene.contacts.front();
+  return run.scene.surfaces.empty() && run.scene.loads.empty() && !contact.adhesion &&
+         !surface_file(contact.shape);
+}
+
+}  // namespace
+
 double report_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
+  if (!run.inertia && !run.scene.contacts.empty()) {
+    const RigidMotions free = free_motions(run);
+    if (free.about > 1)
+      voice.warn(free.words +
+                 ": only contact keeps it from tipping over; is a support missing, or does its "
+                 "set have too few nodes?");
+  }
   FibreJump jump = FibreJump{};
   if (run.scene.families() > 0) jump = largest_jump(run.mesh, run.scene.directions);
   if (jump.degrees > 1e-3)
@@ -21,12 +45,15 @@ double report_scene(const Voice& voice, const Run& run) {
 
 std::string held_by_contact(const Run& run, const Run::Where& where) {
   if (run.inertia) return "";  // inertia resists every motion
-  const std::string loose =
-      zero_energy_modes(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
-  if (!loose.empty() && run.scene.contacts.empty())
-    throw Failure(Exit::config, Error{where("supports"), "supports", loose,
-                                      "a body that is held, or contacts", ""});
-  return loose;
+  const RigidMotions free = free_motions(run);
+  const bool no_contact = run.scene.contacts.empty();
+  if (!free.words.empty() && (no_contact || is_pushed_away(run, free)))
+    throw Failure(Exit::config,
+                  Error{where("supports"), "supports", free.words,
+                        no_contact ? "a body that is held, or contacts"
+                                   : "a body that is held: one indenter only pushes it away",
+                        ""});
+  return free.words;
 }
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) {

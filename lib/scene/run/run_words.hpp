@@ -10,7 +10,8 @@
 
 namespace langer {
 
-// laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction;
+// laws that are unstable at rest and bodies that only contact keeps from tipping over (warnings),
+// fibres that turn between neighbours, the reduction;
 // returns the largest turn [degrees]
 double report_scene(const Voice& voice, const Run& run);
 

@@ -278,7 +278,12 @@ def run(pipeline: str | os.PathLike[str], set: Mapping[str, Any] | None = None, 
         try:
             said = called([program("langer-plan"), str(file)] + (["-o", os.fspath(folder)] if folder is not None else []))
         except LangerError as wrong:
-            raise LangerError(str(wrong).replace(str(file), f"{os.fspath(pipeline)} as changed"), wrong.code) from None
+            words = str(wrong)
+            if file != Path(pipeline):
+                words = words.replace(str(file), f"{os.fspath(pipeline)} as changed")
+            if "there is no such file" in words and Path(pipeline).resolve().parent != Path.cwd():
+                words += f"\n  hint: paths in a pipeline are relative to the working directory, {Path.cwd()}"
+            raise LangerError(words, wrong.code) from None
     planned = re.search(r"^plan: (.+): \d+ nodes, \d+ steps", said, re.M)
     if not planned:
         raise LangerError(said.strip())
