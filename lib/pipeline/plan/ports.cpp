@@ -74,18 +74,19 @@ const StageSpec post_stage{
     "FEBio 4; may be repeated, and needs --solution only"};
 // Gathers files of any stage with a summary. Its port is called curves, because members are mostly
 // curves.h5.
-const StageSpec gather_stage{"gather",
-                             "Collects one quantity or several over a sweep.",
-                             {{.name = "curves",
-                               .says = "results of each run of the sweep, such as curves: post or curves: fit",
-                               .made_by = {"post", "layers", "fit", "sensitivity", "mesh", "solve"},
-                               .several = true,
-                               .members = true},
-                              {.name = "material",
-                               .says = "the fit, for a sweep over {samples: 100}",
-                               .made_by = {"fit"},
-                               .required = false}},
-                             "sweep.h5"};
+const StageSpec gather_stage{
+    "gather",
+    "Collects one quantity or several over a sweep.",
+    {{.name = "curves",
+      .says = "results of each run of the sweep, such as curves: post or curves: fit",
+      .made_by = {"post", "layers", "fit", "sensitivity", "mesh", "solve"},
+      .several = true,
+      .members = true},
+     {.name = "material",
+      .says = "the fit, for a sweep over {samples: 100}",
+      .made_by = {"fit"},
+      .required = false}},
+    "sweep.h5"};
 // All ports are optional: a report shows what a run has.
 const StageSpec report_stage{
     "report",
