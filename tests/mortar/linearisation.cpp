@@ -115,6 +115,31 @@ TEST_CASE("forces and moments of two curved surfaces balance, whatever the react
   CHECK(moment.norm() < 1e-13 * size);
 }
 
+TEST_CASE("nodes on a line take all of a moment but the part about their line") {
+  VecX x(9);
+  x << 0, 0, 0, /**/ -1, -0.5, 0, /**/ 1, -0.5, 0;
+  MortarNode node;
+  node.own = {{0, 1}};
+  node.other = {{1, -0.5}, {2, -0.5}};
+  node.jump = Vec3(0, 0.5, 0);
+  const Vec3 r(0.3, -1, 0.7);
+  Vec3 sum = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+  for (const NodalForce& force : force_operator(node, x)) {
+    const Vec3 f = force.per_reaction * r;
+    sum += f;
+    moment += cross(Vec3(x.segment<3>(3 * force.node)), f);
+  }
+  CHECK(sum.norm() < 1e-14);
+  // The line is along x. Without a couple the moment of both sides is jump x r.
+  const Vec3 without = cross(node.jump, r);
+  CHECK(std::abs(without[2]) > 0.1);
+  CHECK((moment - Vec3(without[0], 0, 0)).norm() < 1e-14);
+
+  node.other = {{1, -1}};
+  for (const NodalForce& force : force_operator(node, x)) CHECK(force.per_reaction.allFinite());
+}
+
 TEST_CASE("a gap that is linear over a flat surface is met at each node exactly") {
   const TwoSurfaces s = two_surfaces(
       {3, 3, 0.1, 1.9, 0.15, 1.8}, {5, 4, 0, 2, 0, 2}, [](double, double) { return 0.3; },

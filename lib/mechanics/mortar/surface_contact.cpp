@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/tensor/principal.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mortar/mortar_facet.hpp"
 
@@ -195,6 +196,26 @@ std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact,
   return nodes;
 }
 
+namespace {
+
+// The inverse of the inertia of masses, in the directions in which they resist a turn: those on a
+// line do not resist one about it, and a single one resists none.
+Mat3 inverse_inertia(const Mat3& inertia) {
+  constexpr double regular = 1e-12;  // of the sum of the principal values, to the third power
+  constexpr double resists = 1e-9;   // of their sum
+  const double sum = inertia.trace();
+  if (inertia.determinant() > regular * sum * sum * sum) return inertia.inverse();
+  Mat3 inverse = Mat3::Zero();
+  const Principal own = principal(inertia);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = own.directions.col(i);
+    if (own.values[i] > resists * sum) inverse += axis * axis.transpose() / own.values[i];
+  }
+  return inverse;
+}
+
+}  // namespace
+
 // Forces on the other side: w_k r - q_k a x (x_k - x_mean), with a such that the moment of all is
 // zero: J a = jump x r, J the inertia of the masses q_k = |w_k|.
 std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
@@ -217,7 +238,7 @@ std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
     P << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
     return P;
   };
-  const Mat3 turn = inertia.inverse() * product(node.jump);
+  const Mat3 turn = inverse_inertia(inertia) * product(node.jump);
   for (const Weight& w : node.other) {
     const Mat3 couple = std::abs(w.of) * product(position(x, w.node) - mean) * turn;
     forces.push_back({w.node, w.of * Mat3::Identity() + couple});

@@ -9,51 +9,6 @@
 
 namespace langer {
 
-// Called before u becomes u + step du: pressures, travel and contact reactions follow. Reactions
-// turn with the normal of a curved indenter, which keeps them inside Coulomb's cone.
-void ContactStep::moved(const VecX& du, double step) {
-  const Stopwatch watch(state_.cost.assembly);
-  if (dp_.size() > 0)
-    body_.move_pressures(dp_, step);
-  else
-    body_.predict_pressures(du, step, again_);
-  const std::vector<Vec3>& X = body_.mesh().X;
-  // the law was linearised at the end of an arc, and else where the indenter is
-  const double dt = border_.arc() ? next_.t : 0;
-  const double d_travel = border_.arc() ? next_.travel : 0;
-  for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
-    const Vec3 c =
-        indenter_displacement(state_.contacts[k], trial_.t + dt, trial_.travel + d_travel);
-    const Vec3 end = indenter_displacement(state_.contacts[k], trial_.t + step * dt,
-                                           trial_.travel + step * next_.travel);
-    const Vec3 dc = end - c;
-    for (std::size_t i = 0; i < trial_.r[k].size(); ++i) {
-      if (next_.r[k][i].isZero(0) && trial_.r[k][i].isZero(0)) continue;
-      const int node = state_.contacts[k].nodes[i];
-      const Vec3 x = X[node] + trial_.u.segment<3>(3 * node) - c;
-      const Vec3 moved_x = x + step * du.segment<3>(3 * node) - dc;
-      Vec3 r = next_.r[k][i];
-      if (step != 1) r = trial_.r[k][i] + step * (next_.r[k][i] - trial_.r[k][i]);
-      trial_.r[k][i] = turn_with_normal(r, shape_at(state_.contacts[k].shape, x).normal,
-                                        shape_at(state_.contacts[k].shape, moved_x).normal);
-    }
-  }
-  if (border_.active()) border_.move(step);
-  if (!state_.surfaces.empty()) {
-    for (std::size_t k = state_.contacts.size(); k < trial_.r.size(); ++k)
-      for (std::size_t i = 0; i < trial_.r[k].size(); ++i)
-        trial_.r[k][i] += step * (next_.r[k][i] - trial_.r[k][i]);
-    state_.surfaces.turn(X, trial_.u, step * du, trial_.r, state_.contacts.size());
-  }
-  if (state_.controlled_index >= 0) trial_.travel += step * next_.travel;
-  for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
-    const bool follows_travel =
-        state_.starts_with_travel() && static_cast<int>(k) == state_.controlled_index;
-    if (state_.contacts[k].mu > 0 && (border_.arc() || follows_travel))
-      state_.slip_from_touch(k, trial_.expected);
-  }
-}
-
 std::optional<VecX> ContactStep::correction() {
   factors_.update_tangent();
   again_ = false;
@@ -272,6 +227,51 @@ LinearAnswers ContactStep::linear_answers() {
     return with_prescribed_dofs(free);
   };
   return answers;
+}
+
+// Called before u becomes u + step du: pressures, travel and contact reactions follow. Reactions
+// turn with the normal of a curved indenter, which keeps them inside Coulomb's cone.
+void ContactStep::moved(const VecX& du, double step) {
+  const Stopwatch watch(state_.cost.assembly);
+  if (dp_.size() > 0)
+    body_.move_pressures(dp_, step);
+  else
+    body_.predict_pressures(du, step, again_);
+  const std::vector<Vec3>& X = body_.mesh().X;
+  // the law was linearised at the end of an arc, and else where the indenter is
+  const double dt = border_.arc() ? next_.t : 0;
+  const double d_travel = border_.arc() ? next_.travel : 0;
+  for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
+    const Vec3 c =
+        indenter_displacement(state_.contacts[k], trial_.t + dt, trial_.travel + d_travel);
+    const Vec3 end = indenter_displacement(state_.contacts[k], trial_.t + step * dt,
+                                           trial_.travel + step * next_.travel);
+    const Vec3 dc = end - c;
+    for (std::size_t i = 0; i < trial_.r[k].size(); ++i) {
+      if (next_.r[k][i].isZero(0) && trial_.r[k][i].isZero(0)) continue;
+      const int node = state_.contacts[k].nodes[i];
+      const Vec3 x = X[node] + trial_.u.segment<3>(3 * node) - c;
+      const Vec3 moved_x = x + step * du.segment<3>(3 * node) - dc;
+      Vec3 r = next_.r[k][i];
+      if (step != 1) r = trial_.r[k][i] + step * (next_.r[k][i] - trial_.r[k][i]);
+      trial_.r[k][i] = turn_with_normal(r, shape_at(state_.contacts[k].shape, x).normal,
+                                        shape_at(state_.contacts[k].shape, moved_x).normal);
+    }
+  }
+  if (border_.active()) border_.move(step);
+  if (!state_.surfaces.empty()) {
+    for (std::size_t k = state_.contacts.size(); k < trial_.r.size(); ++k)
+      for (std::size_t i = 0; i < trial_.r[k].size(); ++i)
+        trial_.r[k][i] += step * (next_.r[k][i] - trial_.r[k][i]);
+    state_.surfaces.turn(X, trial_.u, step * du, trial_.r, state_.contacts.size());
+  }
+  if (state_.controlled_index >= 0) trial_.travel += step * next_.travel;
+  for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
+    const bool follows_travel =
+        state_.starts_with_travel() && static_cast<int>(k) == state_.controlled_index;
+    if (state_.contacts[k].mu > 0 && (border_.arc() || follows_travel))
+      state_.slip_from_touch(k, trial_.expected);
+  }
 }
 
 }  // namespace langer
