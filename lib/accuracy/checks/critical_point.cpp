@@ -375,7 +375,8 @@ std::optional<CriticalPoint> critical_point_at_end(Run& run, const StateOnPath& 
 
 std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
                                          const StateOnPath& first, const StateOnPath& last) {
-  constexpr double gap = 0.3;  // share of the movement that is left where the path has no jump
+  constexpr double gap = 0.3;   // share of the movement that is left where the path has no jump
+  constexpr double faster = 5;  // than before: near a limit point a movement grows by less
   const double t_now = run.t();
   const BodyState now = run.statics.accepted();
   const auto distance = [](const StateOnPath& a, const StateOnPath& b) {
@@ -395,7 +396,12 @@ std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
     }
     run.statics.accept();
     StateOnPath middle{t, run.statics.accepted(), low.negative};
-    if (distance(middle, low) > distance(middle, high)) {
+    // After the jump the body moves on, so a state right after it may be closer to `low`.
+    const double moved = distance(middle, low);
+    const double foreseen =
+        low.t > earlier.t ? distance(low, earlier) * (t - low.t) / (low.t - earlier.t) : moved;
+    const bool jumped = moved > gap * jump && moved > faster * foreseen;
+    if (jumped || moved > distance(middle, high)) {
       high = std::move(middle);
     } else {
       earlier = std::move(low);
