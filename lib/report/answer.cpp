@@ -252,15 +252,46 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   add_contact_facts(answer, contacts);
 }
 
-// One load in words, as "displacement 6 mm". A load with a history is shown as in the config.
+// A number, or the values of a history one after the other: "0.3 → -0.5". Empty where all are 0.
+std::string course_of(const Tree& value) {
+  if (value.kind != Tree::Kind::list) return flat(value);
+  std::string text, last;
+  bool moves = false;
+  for (const Tree& point : value.list) {
+    const Tree* to = point.find("to");
+    if (!to) return flat(value);
+    const std::string one = flat(*to);
+    moves = moves || one != "0";
+    if (one != last) append(text, " → ", one);
+    last = one;
+  }
+  return moves ? text : "";
+}
+
+// The same of a load, or of its components: "x 0.3 → -0.5, z 1".
+std::string size_of_load(const Tree& value) {
+  if (value.kind != Tree::Kind::map) return course_of(value);
+  std::string text;
+  for (const auto& [axis, component] : value.map) {
+    if (component.kind == Tree::Kind::null) continue;
+    if (const std::string course = course_of(component); !course.empty())
+      append(text, ", ", axis + " " + course);
+  }
+  return text;
+}
+
+// One load in words, as "displacement x 6 mm". Empty where it moves nothing.
 std::string load_words(const Tree& load) {
   std::string text;
   for (const auto& [kind, value] : load.map) {
     if (kind == "on" || value.kind == Tree::Kind::null) continue;
-    append(text, ", ", kind + " " + flat(value));
-    if (kind == "pressure") text += " MPa";
+    const std::string size = size_of_load(value);
+    if (size.empty()) continue;
+    append(text, ", ", kind + " " + size);
+    if (kind == "pressure" || kind == "traction") text += " MPa";
     if (kind == "displacement") text += " mm";
     if (kind == "force") text += " N";
+    if (kind == "volume") text += " mm³";
   }
   return text;
 }
@@ -269,6 +300,8 @@ std::string load_words(const Tree& load) {
 Vec3 total_reaction(const StepRecord& step, const std::vector<int>& nodes) {
   Vec3 sum = Vec3::Zero();
   for (const int node : nodes) sum += step.reaction[static_cast<std::size_t>(node)];
+  for (double& component : sum)  // rounding is no reaction
+    if (std::abs(component) < 1e-12 * sum.norm()) component = 0;
   return sum;
 }
 
@@ -282,7 +315,8 @@ void describe_loads(Answer& answer, const SolutionReader& solution, const Tree& 
     for (const Tree& load : loads->list) {
       const Tree* on = load.find("on");
       if (!on) continue;
-      append(done, "; ", on->scalar + ": " + load_words(load));
+      if (const std::string words = load_words(load); !words.empty())
+        append(done, "; ", on->scalar + ": " + words);
       const auto set = mesh.node_sets.find(on->scalar);
       const Tree* displacement = load.find("displacement");
       if (!displacement || displacement->kind == Tree::Kind::null) continue;
