@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/traps.hpp"
 #include "core/tensor/dense.hpp"
 #include "core/tensor/principal.hpp"
 #include "mechanics/contact/alart_curnier.hpp"
@@ -104,9 +105,13 @@ std::optional<VecX> closed_step(const LocalProblem& problem, const VecX& rho,
           laws[i].change(dr, Mat3(rho[i] * problem.W.block<3, 3>(3 * i, 3 * closed[q])));
     }
   }
-  VecX step = Lu(J).solve(b);
-  if (!step.allFinite() || (J * step - b).norm() > 1e-6 * b.norm())
-    step = LeastNorm(J).solve(b);  // rank-deficient W: the smallest step
+  VecX step;
+  {
+    const NoTraps a_pivot_may_be_zero;  // J of a rank-deficient W: the answer is checked
+    step = Lu(J).solve(b);
+    if (step.allFinite() && (J * step - b).norm() <= 1e-6 * b.norm()) return step;
+  }
+  step = LeastNorm(J).solve(b);  // the smallest step
   if (step.allFinite()) return std::optional(step);
   return std::nullopt;
 }
