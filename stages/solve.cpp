@@ -180,7 +180,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
 
   check_vibration(config, run, job.where);
   const double fibre_jump = report_scene(job.voice(), run);
-  std::string loose = held_by_contact(run, job.where);
+  std::string loose = held_by_contact(job.voice(), run, job.where);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
   if (branch) watch.know(branch->bifurcation);

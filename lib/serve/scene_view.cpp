@@ -230,7 +230,7 @@ std::vector<Summary> forecast(const SolveInputs& inputs, ModelChoice& model, Mes
   const Voice voice{"solve", false, false};
   SolveConfig config = model.config();
   Run run(std::move(mesh), config, material, where, model.at_a_point());
-  held_by_contact(run, where);
+  held_by_contact(voice, run, where);
   report_scene(voice, run);
   config.estimate = estimate_of(voice, config, material, where, run);
   StudyRecord study;

@@ -1,10 +1,7 @@
 # A scene without a factor: its force is that of one with it; --dry-run says so, nothing is told of stability, a run that was killed goes on
 # with the same bits, and where it does not serve it is refused with a place.
 include(${ROOT}/tests/support/run.cmake)
-if(SANITIZED)
-  # what Open MPI's modules leave as they are unloaded has no name by which the leak check could leave it out
-  set(ENV{ASAN_OPTIONS} "$ENV{ASAN_OPTIONS}:detect_leaks=0")
-endif()
+without_leaks_of_mpi()
 copy_project()
 set(folder ${WORK}/project)
 run(0 ${BIN}/langer doctor)

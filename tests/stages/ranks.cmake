@@ -1,10 +1,7 @@
 # mpirun -n N langer-solve: N ranks give what one gives, the same bits for the same N, and rank 0 alone speaks and writes. Killed or stopped
 # they go on with the same bits; where there is nothing to share the others are idle; where one fails none is left waiting.
 include(${ROOT}/tests/support/run.cmake)
-if(SANITIZED)
-  # what Open MPI's modules leave as they are unloaded has no name by which the leak check could leave it out
-  set(ENV{ASAN_OPTIONS} "$ENV{ASAN_OPTIONS}:detect_leaks=0")
-endif()
+without_leaks_of_mpi()
 copy_project()
 set(folder ${WORK}/project)
 run(0 ${BIN}/langer doctor)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/lower_case.hpp"
 #include "core/base/printable.hpp"
 
 namespace langer {
@@ -50,12 +51,8 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest(const std::string& name, const std::vector<std::string>& known) {
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
   const auto same = std::find_if(known.begin(), known.end(), [&](const std::string& k) {
-    return k != name && lower(k) == lower(name);
+    return k != name && lower_case(k) == lower_case(name);
   });
   if (same != known.end()) return *same;
   std::string best;

@@ -8,10 +8,6 @@ namespace langer {
 
 namespace {
 
-RigidMotions free_motions(const Run& run) {
-  return rigid_motions(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
-}
-
 // One indenter that pushes a body which nothing else holds or loads only moves it away. One of
 // triangles may hold it from several sides.
 bool is_pushed_away(const Run& run, const RigidMotions& free) {
@@ -26,13 +22,6 @@ bool is_pushed_away(const Run& run, const RigidMotions& free) {
 double report_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
-  if (!run.inertia && !run.scene.contacts.empty()) {
-    const RigidMotions free = free_motions(run);
-    if (free.about > 1)
-      voice.warn(free.words +
-                 ": only contact keeps it from tipping over; is a support missing, or does its "
-                 "set have too few nodes?");
-  }
   FibreJump jump = FibreJump{};
   if (run.scene.families() > 0) jump = largest_jump(run.mesh, run.scene.directions);
   if (jump.degrees > 1e-3)
@@ -43,9 +32,10 @@ double report_scene(const Voice& voice, const Run& run) {
   return jump.degrees;
 }
 
-std::string held_by_contact(const Run& run, const Run::Where& where) {
+std::string held_by_contact(const Voice& voice, const Run& run, const Run::Where& where) {
   if (run.inertia) return "";  // inertia resists every motion
-  const RigidMotions free = free_motions(run);
+  const RigidMotions free =
+      rigid_motions(run.mesh, run.mesh.section ? run.reduction.scene().dofs : run.scene.dofs);
   const bool no_contact = run.scene.contacts.empty();
   if (!free.words.empty() && (no_contact || is_pushed_away(run, free)))
     throw Failure(Exit::config,
@@ -53,6 +43,10 @@ std::string held_by_contact(const Run& run, const Run::Where& where) {
                         no_contact ? "a body that is held, or contacts"
                                    : "a body that is held: one indenter only pushes it away",
                         ""});
+  if (free.about > 1)
+    voice.warn(free.words +
+               ": only contact keeps it from tipping over; is a support missing, or does its set "
+               "have too few nodes?");
   return free.words;
 }
 

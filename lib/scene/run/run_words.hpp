@@ -10,14 +10,13 @@
 
 namespace langer {
 
-// laws that are unstable at rest and bodies that only contact keeps from tipping over (warnings),
-// fibres that turn between neighbours, the reduction;
+// laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction;
 // returns the largest turn [degrees]
 double report_scene(const Voice& voice, const Run& run);
 
 // Motions that only contact resists, in words; empty where there are none. Throws Failure(config)
-// for a body that nothing holds.
-std::string held_by_contact(const Run& run, const Run::Where& where);
+// for a body that nothing holds, and warns of one that only contact keeps from tipping over.
+std::string held_by_contact(const Voice& voice, const Run& run, const Run::Where& where);
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps);
 std::vector<Summary> joined(const std::vector<std::vector<Summary>>& parts);
