@@ -153,7 +153,7 @@ bool SceneTests::read(const SceneTest& test, const ForwardPath& path, const MatX
 bool SceneTests::model(const VecX& p, VecX& values) {
   std::vector<Path> paths;
   if (!paths_at(p, paths)) return false;
-  values.resize(measured_.size());
+  values.resize(observed_.measured.size());
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const SceneTest& test = tests_[i];
     VecX of_test;
@@ -167,11 +167,12 @@ bool SceneTests::model(const VecX& p, VecX& values) {
     for (const SceneCurve& curve : test.curves)
       if (curve.unit == "N")
         of_test.segment(curve.first, static_cast<Eigen::Index>(test.s.size())).array() += offset;
-    values.segment(first_[i], of_test.size()) = of_test;
+    values.segment(observed_.first[i], of_test.size()) = of_test;
   }
   if (options_.say)
-    options_.say(fmt::format("run {}: chi-square {:.6g}", effort_.runs,
-                             weight_.cwiseProduct(values - measured_).squaredNorm()));
+    options_.say(
+        fmt::format("run {}: chi-square {:.6g}", effort_.runs,
+                    observed_.weight.cwiseProduct(values - observed_.measured).squaredNorm()));
   return true;
 }
 
@@ -180,7 +181,7 @@ bool SceneTests::model(const VecX& p, VecX& values) {
 bool SceneTests::slope(const VecX& p, MatX& J) {
   std::vector<Path> paths;
   if (!paths_at(p, paths)) return false;
-  J = MatX::Zero(measured_.size(), p.size());
+  J = MatX::Zero(observed_.measured.size(), p.size());
   bool exists = false;
   if (options_.quotients) {
     exists = add_difference_quotients(p, paths, true, J);
@@ -203,7 +204,7 @@ bool SceneTests::add_path_sensitivities(const VecX& p, const std::vector<Path>& 
       if (!read(tests_[i], path, path.slopes[k], p, Read::values, column)) return false;
       for (const SlopeOf& of : slopes_[k].of)
         if (!of.scene || *of.scene == tests_[i].run)
-          J.block(first_[i], static_cast<Eigen::Index>(of.number), column.size(), 1) +=
+          J.block(observed_.first[i], static_cast<Eigen::Index>(of.number), column.size(), 1) +=
               of.factor * column;
     }
   }
@@ -246,7 +247,7 @@ bool SceneTests::add_difference_quotients(const VecX& p, const std::vector<Path>
       if (!other.complete || !read(test, path, path.values, p, Read::values, here) ||
           !read(test, other, other.values, p, Read::values, there))
         return false;
-      J.block(first_[i], static_cast<Eigen::Index>(steps[step].first), here.size(), 1) =
+      J.block(observed_.first[i], static_cast<Eigen::Index>(steps[step].first), here.size(), 1) =
           (there - here) / steps[step].second;
     }
   return true;
@@ -263,7 +264,7 @@ void SceneTests::add_instrument_columns(const VecX& p, const std::vector<Path>& 
       VecX column;
       // where it is not, the model is not there either
       if (instrument_column(test, numbers_[i].measured->of, p, *paths[test.run], column))
-        J.block(first_[k], static_cast<Eigen::Index>(i), column.size(), 1) = column;
+        J.block(observed_.first[k], static_cast<Eigen::Index>(i), column.size(), 1) = column;
     }
 }
 
@@ -314,8 +315,8 @@ void SceneTests::add_held_of_instruments(const VecX& p, const std::vector<Path>&
       VecX column;
       if (is_free(test, of) || !instrument_column(test, of, p, *paths[test.run], column)) continue;
       HeldNumber one{fmt::format("data[{}].{}", test.data, word), unit, measured_by(test, of, p),
-                     VecX::Zero(measured_.size())};
-      one.slope.segment(first_[k], column.size()) = column;
+                     VecX::Zero(observed_.measured.size())};
+      one.slope.segment(observed_.first[k], column.size()) = column;
       held.push_back(std::move(one));
     }
   }
@@ -353,14 +354,14 @@ std::vector<HeldNumber> SceneTests::held_numbers(const VecX& p) {
       const auto [at, is_new] = known.insert({path, held.size()});
       if (is_new)
         held.push_back({path, unit_of_config_number(path), *scenes_[scene].run->number(path),
-                        VecX::Zero(measured_.size())});
+                        VecX::Zero(observed_.measured.size())});
       for (std::size_t k = 0; k < tests_.size(); ++k) {
         if (tests_[k].run != scene) continue;
         VecX column, before;
         if (!read(tests_[k], run, of, p, Read::values, column)) continue;
         if (less && !read(tests_[k], *less, less->values, p, Read::values, before)) continue;
         if (less) column -= before;
-        held[at->second].slope.segment(first_[k], column.size()) += factor * column;
+        held[at->second].slope.segment(observed_.first[k], column.size()) += factor * column;
       }
     };
     std::size_t next = 0;
@@ -415,7 +416,7 @@ std::vector<FittedCurve> SceneTests::fitted(const VecX& values) const {
           test.s,          {},        {},         test.places};
       const auto rows = static_cast<Eigen::Index>(test.s.size());
       const VecX measured = test.measured.segment(curve.first, rows);
-      const VecX model = values.segment(first_[i] + curve.first, rows);
+      const VecX model = values.segment(observed_.first[i] + curve.first, rows);
       one.measured.assign(measured.data(), measured.data() + rows);
       one.model.assign(model.data(), model.data() + rows);
       for (Vec3& place : one.places)

@@ -53,9 +53,9 @@ class SceneTests : public FurtherTests {
   using Where = std::function<Place(const std::string&)>;
   static constexpr double beyond_path =
       0.1;  // part of a path by which trial offsets may lead beyond its end
-  const VecX& measured() const override { return measured_; }
-  const VecX& weight() const override { return weight_; }
-  const std::vector<Eigen::Index>& curves() const override { return curves_; }
+  const VecX& measured() const override { return observed_.measured; }
+  const VecX& weight() const override { return observed_.weight; }
+  const std::vector<Eigen::Index>& curves() const override { return observed_.curves; }
   bool model(const VecX& p, VecX& values) override;
   bool slope(const VecX& p, MatX& J) override;
 
@@ -148,9 +148,12 @@ class SceneTests : public FurtherTests {
   };
   std::vector<Slope> slopes_;
   std::vector<SceneTest> tests_;
-  std::vector<Eigen::Index> first_;  // of the values of each test
-  VecX measured_, weight_;
-  std::vector<Eigen::Index> curves_;
+  struct Observed {
+    VecX measured, weight;            // of all tests
+    std::vector<Eigen::Index> first;  // of the values of each test
+    std::vector<Eigen::Index> curves;
+  };
+  Observed observed_;
   std::shared_ptr<RunCache> cache_;
   SceneFitOptions options_;
   struct Effort {

@@ -204,15 +204,17 @@ void SceneTests::add_tests() {
   }
   std::vector<double> measured, weight;
   for (const SceneTest& test : tests_) {
-    first_.push_back(static_cast<Eigen::Index>(measured.size()));
+    observed_.first.push_back(static_cast<Eigen::Index>(measured.size()));
     measured.insert(measured.end(), test.measured.data(),
                     test.measured.data() + test.measured.size());
     weight.insert(weight.end(), static_cast<std::size_t>(test.measured.size()), 1 / test.deviation);
     for (std::size_t k = 0; k < test.curves.size(); ++k)
-      curves_.push_back(static_cast<Eigen::Index>(test.s.size()));
+      observed_.curves.push_back(static_cast<Eigen::Index>(test.s.size()));
   }
-  measured_ = Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
-  weight_ = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
+  observed_.measured =
+      Eigen::Map<const VecX>(measured.data(), static_cast<Eigen::Index>(measured.size()));
+  observed_.weight =
+      Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
 }
 
 // Finds out what each free parameter is for the scenes: a number of the material, friction of a

@@ -22,15 +22,15 @@ Assembler::Assembler(const Mesh& mesh, std::vector<Material> materials, Directio
       tangent_(body_, packets_.blocks()),
       threads_(threads),
       conserving_(body_) {
-  f_ = VecX::Zero(body_.dofs().n);
-  K_du_ = f_;
+  sums_.f = VecX::Zero(body_.dofs().n);
+  sums_.K_du = sums_.f;
   if (!loads.empty()) set_loads(std::move(loads));
   begin_increment(0);
 }
 
 void Assembler::set_loads(Loads loads) {
   loads_ = std::move(loads);
-  f_ext_ = VecX::Zero(body_.dofs().n);
+  sums_.f_ext = VecX::Zero(body_.dofs().n);
 }
 
 void Assembler::begin_increment(double seconds) {
@@ -55,12 +55,12 @@ bool Assembler::assemble(const VecX& u, bool with_tangent, const VecX* du_prescr
   const int n = static_cast<int>(packets_.blocks().size());
   const int n_chunks = (n + chunk - 1) / chunk;
 
-  f_.setZero();
-  K_du_.setZero();
+  sums_.f.setZero();
+  sums_.K_du.setZero();
   if (with_tangent) tangent_.begin();
-  W_ = 0;
-  J_min_ = std::numeric_limits<double>::infinity();
-  floor_ = 0;
+  sums_.W = 0;
+  sums_.J_min = std::numeric_limits<double>::infinity();
+  sums_.floor = 0;
 
   std::vector<PacketElement> out(static_cast<std::size_t>(chunk) * threads_,
                                  PacketElement(body_.n_nodes(), body_.n_pressures()));
@@ -86,22 +86,22 @@ bool Assembler::assemble(const VecX& u, bool with_tangent, const VecX* du_prescr
       [&](int worker, int c) {
         for (int b = first(c); b < last(c); ++b) {
           const PacketElement& element = out[worker * chunk + b - first(c)];
-          J_min_ = std::min(J_min_, smallest(element.J_min));
-          if (J_min_ > 0) {
+          sums_.J_min = std::min(sums_.J_min, smallest(element.J_min));
+          if (sums_.J_min > 0) {
             add_block(static_cast<std::size_t>(b), element, u, with_tangent, du_prescribed);
           }
         }
       });
   if (body_.division()) sum_over_ranks(with_tangent);
-  floor_ = std::sqrt(floor_);
-  if (!loads_.empty() && J_min_ > 0) add_loads(u, with_tangent, du_prescribed);
-  if (added_ && J_min_ > 0) {
-    f_ += added_->force(u);
+  sums_.floor = std::sqrt(sums_.floor);
+  if (!loads_.empty() && sums_.J_min > 0) add_loads(u, with_tangent, du_prescribed);
+  if (added_ && sums_.J_min > 0) {
+    sums_.f += added_->force(u);
     if (with_tangent) tangent_.add(added_->tangent());
-    if (with_tangent && du_prescribed) K_du_ += added_->tangent_times(*du_prescribed);
+    if (with_tangent && du_prescribed) sums_.K_du += added_->tangent_times(*du_prescribed);
   }
 
-  const bool valid = J_min_ > 0 && std::isfinite(W_) && f_.allFinite();
+  const bool valid = sums_.J_min > 0 && std::isfinite(sums_.W) && sums_.f.allFinite();
   if (valid) {
     pressures_.set_evaluated_at(u);
   } else {
@@ -116,10 +116,10 @@ void Assembler::add_block(std::size_t b, const PacketElement& element, const Vec
   for (int l = 0; l < block.n; ++l) {
     const int e = block.cells[l];
     add_internal_force(e, element, l);
-    W_ += element.W[l];
+    sums_.W += element.W[l];
     pressures_.store_dilatations(e, element, l);
     const double floor = rounding_error(e, u);
-    floor_ += floor * floor;
+    sums_.floor += floor * floor;
     if (!with_tangent) continue;
     tangent_.add(e, element, l);
     if (du_prescribed) add_prescribed_effect(e, element, l, *du_prescribed);
@@ -132,12 +132,12 @@ void Assembler::add_internal_force(int e, const PacketElement& element, int lane
     for (int a = 0; a < body_.n_nodes(); ++a) {
       const Vec3 force(element.f[3 * a][lane], element.f[3 * a + 1][lane],
                        element.f[3 * a + 2][lane]);
-      body_.add_force(f_, nodes[a], e, force);
+      body_.add_force(sums_.f, nodes[a], e, force);
     }
     return;
   }
   for (int a = 0; a < body_.n_nodes(); ++a) {
-    for (int i = 0; i < 3; ++i) f_[3 * nodes[a] + i] += element.f[3 * a + i][lane];
+    for (int i = 0; i < 3; ++i) sums_.f[3 * nodes[a] + i] += element.f[3 * a + i][lane];
   }
 }
 
@@ -190,17 +190,17 @@ void Assembler::add_prescribed_effect(int e, const PacketElement& element, int l
   }
   const auto nodes = body_.nodes(e);
   for (int a = 0; a < body_.n_nodes(); ++a) {
-    body_.add_force(K_du_, nodes[a], e, Vec3(&K_du[3 * a]));
+    body_.add_force(sums_.K_du, nodes[a], e, Vec3(&K_du[3 * a]));
   }
 }
 
 void Assembler::add_loads(const VecX& u, bool with_tangent, const VecX* du_prescribed) {
-  f_ext_.setZero();
+  sums_.f_ext.setZero();
   const auto displacements = [&](int e) {
     return body_.displacements(u, e);
   };
   const auto add = [&](int e, const ElementNodes& force, const MatX* stiffness) {
-    add_forces(e, force, f_ext_);
+    add_forces(e, force, sums_.f_ext);
     if (stiffness) add_load_stiffness(e, *stiffness, du_prescribed);
   };
   loads_.each(t_loads_, displacements, with_tangent, add);
@@ -260,21 +260,21 @@ void Assembler::add_load_stiffness(int e, const MatX& stiffness, const VecX* du_
       const Mat3 K = stiffness.block<3, 3>(3 * a, 3 * b);
       K_du += K * du.row(b).transpose();
     }
-    body_.add_force(K_du_, nodes[a], e, K_du);
+    body_.add_force(sums_.K_du, nodes[a], e, K_du);
   }
 }
 
 void Assembler::sum_over_ranks(bool with_tangent) {
   const Ranks* ranks = body_.division()->ranks;
-  J_min_ = ranks->smallest(J_min_);
-  if (!(J_min_ > 0)) return;
-  VecX all(f_.size() + 2 + (with_tangent ? K_du_.size() : 0));
-  all << f_, W_, floor_, K_du_.head(all.size() - f_.size() - 2);
+  sums_.J_min = ranks->smallest(sums_.J_min);
+  if (!(sums_.J_min > 0)) return;
+  VecX all(sums_.f.size() + 2 + (with_tangent ? sums_.K_du.size() : 0));
+  all << sums_.f, sums_.W, sums_.floor, sums_.K_du.head(all.size() - sums_.f.size() - 2);
   ranks->sum(all.data(), static_cast<std::size_t>(all.size()));
-  f_ = all.head(f_.size());
-  W_ = all[f_.size()];
-  floor_ = all[f_.size() + 1];
-  if (with_tangent) K_du_ = all.tail(K_du_.size());
+  sums_.f = all.head(sums_.f.size());
+  sums_.W = all[sums_.f.size()];
+  sums_.floor = all[sums_.f.size() + 1];
+  if (with_tangent) sums_.K_du = all.tail(sums_.K_du.size());
 }
 
 double Assembler::smallest_J(const VecX& u) const {

@@ -79,15 +79,15 @@ class Assembler {
   // made; K_du() is its effect.
   bool assemble(const VecX& u, bool with_tangent, const VecX* du_prescribed = nullptr);
 
-  const VecX& f_int() const { return f_; }      // (3 n) [N]
-  const VecX& f_ext() const { return f_ext_; }  // (3 n) [N]; empty without loads
+  const VecX& f_int() const { return sums_.f; }      // (3 n) [N]
+  const VecX& f_ext() const { return sums_.f_ext; }  // (3 n) [N]; empty without loads
   const std::vector<double>& K() const { return tangent_.values(); }  // (nnz) [N/mm]
-  const VecX& K_du() const { return K_du_; }                          // (3 n) [N]
-  double W() const { return W_; }          // energy [N mm]; of viscous bodies that of equilibrium
-  double J_min() const { return J_min_; }  // smallest det F
-  double smallest_J(const VecX& u) const;  // the same, without assembling
+  const VecX& K_du() const { return sums_.K_du; }                     // (3 n) [N]
+  double W() const { return sums_.W; }  // energy [N mm]; of viscous bodies that of equilibrium
+  double J_min() const { return sums_.J_min; }  // smallest det F
+  double smallest_J(const VecX& u) const;       // the same, without assembling
   // Rounding error of the residual: kappa eps |grad u| through each element's dilatation [N].
-  double rounding_floor() const { return floor_; }
+  double rounding_floor() const { return sums_.floor; }
 
   // Pressures of the tangent.
   const PressureField& pressures() const { return pressures_; }
@@ -181,10 +181,14 @@ class Assembler {
   AddedTerm* added_ = nullptr;
   double t_loads_ = 0;
   int threads_;
-  VecX f_, K_du_, f_ext_;
-  double W_ = 0;
-  double J_min_ = 1;
-  double floor_ = 0;
+  // What an assembly adds up.
+  struct Sums {
+    VecX f, K_du, f_ext;
+    double W = 0;
+    double J_min = 1;
+    double floor = 0;
+  };
+  Sums sums_;
   ConservingForces conserving_;
 };
 

@@ -13,22 +13,16 @@ Assembler::Forces Assembler::forces_of(std::vector<Material> materials, Directio
   const std::vector<Material> own_materials = body_.materials();
   const Directions own_directions = body_.directions();
   const PressureField::State pressures = pressures_.state();
-  const VecX f = f_;
-  const VecX f_ext = f_ext_;
-  const double W = W_;
-  const double floor = floor_;
+  const Sums sums = sums_;
 
   set_materials(std::move(materials), std::move(directions));
   pressures_from(u);
   assemble(u, false);
-  Forces out{f_, W_};
+  Forces out{sums_.f, sums_.W};
 
   set_materials(own_materials, own_directions);
   pressures_.restore(pressures);
-  f_ = f;
-  f_ext_ = f_ext;
-  W_ = W;
-  floor_ = floor;
+  sums_ = sums;
   return out;
 }
 
@@ -51,19 +45,15 @@ VecX Assembler::bubble_part(const VecX& u, const VecX& v, double* W_change) {
   const PressureField::State state = pressures_.state();
   double size = 0;
   for (double modulus : state.bubble_modulus) size = std::max(size, modulus);
-  const double W = W_;
-  const VecX f = f_;
-  const VecX f_ext = f_ext_;
+  const Sums sums = sums_;
 
   pressures_.add_to_bubble_moduli(size / largest, change);
   assemble(u, false);
-  const VecX out = largest / size * (f_ - f);
-  if (W_change) *W_change = largest / size * (W_ - W);
+  const VecX out = largest / size * (sums_.f - sums.f);
+  if (W_change) *W_change = largest / size * (sums_.W - sums.W);
 
   pressures_.restore(state);
-  f_ = f;
-  f_ext_ = f_ext;
-  W_ = W;
+  sums_ = sums;
   return out;
 }
 

@@ -122,8 +122,8 @@ VecX LinearSolver::solve(const VecX& b) const {
   if (s.indefinite) {
     double control[UMFPACK_CONTROL];
     umfpack_di_defaults(control);
-    umfpack_di_solve(UMFPACK_A, s.full_start.data(), s.full_row.data(), s.full_value.data(),
-                     x.data(), b.data(), s.numeric, control, nullptr);
+    umfpack_di_solve(UMFPACK_A, s.full.start.data(), s.full.row.data(), s.full.value.data(),
+                     x.data(), b.data(), s.full.numeric, control, nullptr);
     return x;
   }
   x = s.whole(b);

@@ -67,32 +67,32 @@ bool LinearSolver::State::factorize_indefinite() {
   const int n = static_cast<int>(A->nrow);
   const int *p = static_cast<int*>(A->p), *row = static_cast<int*>(A->i);
   const double* x = static_cast<double*>(A->x);
-  if (full_start.empty()) {  // both triangles, and from which entry of A each comes
-    full_start.assign(n + 1, 0);
+  if (full.start.empty()) {  // both triangles, and from which entry of A each comes
+    full.start.assign(n + 1, 0);
     for (int c = 0; c < n; ++c)
       for (int k = p[c]; k < p[c + 1]; ++k) {
-        ++full_start[c + 1];
-        if (row[k] != c) ++full_start[row[k] + 1];
+        ++full.start[c + 1];
+        if (row[k] != c) ++full.start[row[k] + 1];
       }
-    for (int c = 0; c < n; ++c) full_start[c + 1] += full_start[c];
-    full_row.resize(full_start[n]);
-    full_from.resize(full_start[n]);
-    full_value.resize(full_start[n]);
-    std::vector<int> next(full_start.begin(), full_start.end() - 1);
+    for (int c = 0; c < n; ++c) full.start[c + 1] += full.start[c];
+    full.row.resize(full.start[n]);
+    full.from.resize(full.start[n]);
+    full.value.resize(full.start[n]);
+    std::vector<int> next(full.start.begin(), full.start.end() - 1);
     for (int c = 0; c < n;
          ++c)  // ascending c puts the upper entries of a column before its lower ones, in order
       for (int k = p[c]; k < p[c + 1]; ++k)
         if (row[k] != c) {
-          full_row[next[row[k]]] = c;
-          full_from[next[row[k]]++] = k;
+          full.row[next[row[k]]] = c;
+          full.from[next[row[k]]++] = k;
         }
     for (int c = 0; c < n; ++c)
       for (int k = p[c]; k < p[c + 1]; ++k) {
-        full_row[next[c]] = row[k];
-        full_from[next[c]++] = k;
+        full.row[next[c]] = row[k];
+        full.from[next[c]++] = k;
       }
   }
-  for (std::size_t k = 0; k < full_from.size(); ++k) full_value[k] = x[full_from[k]];
+  for (std::size_t k = 0; k < full.from.size(); ++k) full.value[k] = x[full.from[k]];
   double control[UMFPACK_CONTROL];
   umfpack_di_defaults(control);
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
@@ -101,15 +101,15 @@ bool LinearSolver::State::factorize_indefinite() {
     if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
     return status == UMFPACK_OK;
   };
-  if (!symbolic) {
+  if (!full.symbolic) {
     const auto alone = one_ordering_at_a_time();
-    if (!worked(umfpack_di_symbolic(n, n, full_start.data(), full_row.data(), full_value.data(),
-                                    &symbolic, control, nullptr)))
+    if (!worked(umfpack_di_symbolic(n, n, full.start.data(), full.row.data(), full.value.data(),
+                                    &full.symbolic, control, nullptr)))
       return false;
   }
-  if (numeric) umfpack_di_free_numeric(&numeric);
-  return worked(umfpack_di_numeric(full_start.data(), full_row.data(), full_value.data(), symbolic,
-                                   &numeric, control, nullptr));
+  if (full.numeric) umfpack_di_free_numeric(&full.numeric);
+  return worked(umfpack_di_numeric(full.start.data(), full.row.data(), full.value.data(),
+                                   full.symbolic, &full.numeric, control, nullptr));
 }
 
 int LinearSolver::negative_pivots(const std::vector<double>& values) {

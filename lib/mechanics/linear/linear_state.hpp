@@ -47,19 +47,21 @@ struct LinearSolver::State {
   bool trailing = false;            // the last rows of L are those of `last`
   std::vector<int> trailing_order;  // i-th trailing row of L -> index in `last`
   mutable MatX trailing_block;      // of the present factor, once asked for
-  // fallback: the full matrix by columns
-  std::vector<int> full_start, full_row, full_from;
-  std::vector<double> full_value;
-  void* symbolic = nullptr;
-  void* numeric = nullptr;
+  struct Full {                     // fallback: the full matrix by columns
+    std::vector<int> start, row, from;
+    std::vector<double> value;
+    void* symbolic = nullptr;
+    void* numeric = nullptr;
+  };
+  Full full;
   bool indefinite = false;
   std::vector<int> springs;  // rows with springs in the factor; empty in most
   MatX spring_moves;         // (n, springs): K^-1 of a unit force on each spring, springs included
   Lu spring_share;
 
   ~State() {
-    if (numeric) umfpack_di_free_numeric(&numeric);
-    if (symbolic) umfpack_di_free_symbolic(&symbolic);
+    if (full.numeric) umfpack_di_free_numeric(&full.numeric);
+    if (full.symbolic) umfpack_di_free_symbolic(&full.symbolic);
     cholmod_free_factor(&L, &common);
     cholmod_free_sparse(&A, &common);
     cholmod_finish(&common);

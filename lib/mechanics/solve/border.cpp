@@ -156,12 +156,10 @@ std::vector<VecX> Border::volume_gradients() const {
 
 // Forces per unit of each unknown, at the trial. Loads are in proportion to t where t is unknown.
 void Border::update() {
-  columns_.clear();
-  if (arc_) {
-    VecX column = -body_.K_du();
-    if (!body_.loads().empty()) column += body_.load_forces(1, trial_.u);
-    columns_.push_back(state_.on_free_rows(column));
-  }
+  if (!arc_) return;
+  VecX column = -body_.K_du();
+  if (!body_.loads().empty()) column += body_.load_forces(1, trial_.u);
+  column_ = state_.on_free_rows(column);
 }
 
 // What the equation of an arc adds to t, where du = a + x b.
@@ -176,7 +174,7 @@ double Border::arc_step(const VecX& a, const VecX& b) const {
 
 void Border::solve(VecX& move, const LinearAnswers& body) {
   if (arc_) {
-    const VecX b = body.movement(columns_.front());
+    const VecX b = body.movement(column_);
     next_.t = 0;
     const VecX a_all = body.all_dofs(move);
     VecX b_all = rates_;
@@ -185,20 +183,20 @@ void Border::solve(VecX& move, const LinearAnswers& body) {
     move += next_.t * b;
     return;
   }
-  gradients_.clear();
   const auto m = trial_.pressures.size();
+  std::vector<VecX> gradients;  // (3 n) of each given volume
   std::vector<VecX> moves;
   MatX M(m, m);
   VecX lacking(m);
   const VecX a_all = body.all_dofs(move);
   for (int i = 0; i < m; ++i) {
-    gradients_.push_back(body_.unit_pressure(i, trial_.u));
-    moves.push_back(body.movement(state_.on_free_rows(gradients_.back())));
+    gradients.push_back(body_.unit_pressure(i, trial_.u));
+    moves.push_back(body.movement(state_.on_free_rows(gradients.back())));
     lacking[i] = body_.loads().given_volume(i, trial_.t) - body_.swept_volume(i, trial_.u) -
-                 gradients_.back().dot(a_all);
+                 gradients.back().dot(a_all);
   }
   for (int i = 0; i < m; ++i) {
-    const VecX row = state_.on_free_rows(gradients_[static_cast<std::size_t>(i)]);
+    const VecX row = state_.on_free_rows(gradients[static_cast<std::size_t>(i)]);
     for (int j = 0; j < m; ++j) M(i, j) = row.dot(moves[static_cast<std::size_t>(j)]);
   }
   Lu factors;
@@ -255,8 +253,7 @@ std::optional<VecX> Border::solve_with_contact(const VecX& rhs, const LinearAnsw
     if (pushed) trial_.travel = travel + x[1];
     next_.t = 0;
     std::optional<BorderPoint> point;
-    if (const std::optional<VecX> move =
-            body.movement_with_contact(rhs + x[0] * columns_.front())) {
+    if (const std::optional<VecX> move = body.movement_with_contact(rhs + x[0] * column_)) {
       point = BorderPoint{x, VecX(n), 0, body.all_dofs(*move), next_.r};
       point->miss[0] =
           miss_of_arc(point->du, state_.moves_of_indenters(t, travel, trial_.t, trial_.travel));

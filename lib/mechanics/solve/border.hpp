@@ -86,8 +86,7 @@ class Border {
   Correction& next_;
   std::optional<Arc> arc_;
   VecX rates_;
-  std::vector<VecX> columns_;    // (free) forces per unit of t
-  std::vector<VecX> gradients_;  // (3 n) of each given volume
+  VecX column_;  // (free) forces per unit of t
 };
 
 }  // namespace langer
