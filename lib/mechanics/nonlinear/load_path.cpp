@@ -68,7 +68,8 @@ double end_of_increment(const LoadPathOptions& options, const Stage& stage, doub
 PathReport load_path(
     const LoadPathOptions& options, double t, std::optional<double> increment,
     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
-    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted) {
+    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted,
+    const std::function<double(double t)>& cut) {
   PathReport report;
   report.t = t;
   // Every attempt that fails halves the increment, and none is shorter than this: so the attempts
@@ -87,7 +88,8 @@ PathReport load_path(
       if (options.steps && begins) dt = stage.largest;
       dt = std::min(dt, stage.largest);
     }
-    const double next = end_of_increment(options, stage, t, dt, shortened);
+    double next = end_of_increment(options, stage, t, dt, shortened);
+    if (cut) next = cut(next);
     const SolveReport solved = attempt(next);
     if (solved.outcome == Outcome::stopped) {
       report.why = solved.why;

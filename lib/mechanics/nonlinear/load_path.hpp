@@ -116,10 +116,11 @@ struct PathReport {
 // After an Outcome::stopped the path ends at once; other failures halve the increment. accepted(t,
 // increment taken, next increment, report): false stops the path (the report is then not complete).
 // stops: values of t that must be hit (kinks of the path); 1 is always one. With seconds they end
-// the stages.
+// the stages. cut(t): where an increment to t should end instead, not beyond t.
 PathReport load_path(
     const LoadPathOptions& options, double t, std::optional<double> increment,
     const std::vector<double>& stops, const std::function<SolveReport(double t)>& attempt,
-    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted);
+    const std::function<bool(double t, double taken, double next, const SolveReport&)>& accepted,
+    const std::function<double(double t)>& cut = {});
 
 }  // namespace langer

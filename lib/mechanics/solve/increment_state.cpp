@@ -3,9 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace langer {
+
+namespace {
+
+bool bears_nothing(const std::vector<Vec3>& reactions) {
+  return std::all_of(reactions.begin(), reactions.end(), [](const Vec3& r) { return r.isZero(0); });
+}
+
+// The share of the way after which a gap closes that changes in proportion; 1: it does not close.
+double share_to_close(double gap0, double gap) {
+  if (!(gap < 0)) return 1;
+  if (!(gap0 > 0)) return 0;
+  return gap0 / (gap0 - gap);
+}
+
+}  // namespace
 
 BodyState at_rest(BodyState shape) {
   shape.t = 0;
@@ -90,8 +106,7 @@ std::vector<ContactDefect> IncrementState::surface_defects() const {
 // the force. Moves it to its first touch.
 void IncrementState::move_to_touch() {
   const auto k = static_cast<std::size_t>(controlled_index);
-  if (std::any_of(trial.r[k].begin(), trial.r[k].end(), [](const Vec3& r) { return !r.isZero(0); }))
-    return;
+  if (!bears_nothing(trial.r[k])) return;
   const auto position = [&](int node) {
     return Vec3(body.mesh().X[node] + trial.u.segment<3>(3 * node));
   };
@@ -119,6 +134,37 @@ void IncrementState::slip_from_touch(std::size_t k, const VecX& end) {
 double IncrementState::slip_tolerance() const {
   if (options.inertia) return std::numeric_limits<double>::infinity();
   return gap_tolerance;
+}
+
+bool IncrementState::may_touch() const {
+  return std::any_of(now.r.begin(), now.r.end(), bears_nothing);
+}
+
+double IncrementState::share_before_touch() const {
+  double share = 1;
+  const std::vector<Vec3>& X = body.mesh().X;
+  const std::vector<Vec3> c0 = indenters(now.t, now.travel);
+  const std::vector<Vec3> c = indenters(trial.t, trial.travel);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (!bears_nothing(now.r[k])) continue;
+    for (int node : contacts[k].nodes) {
+      const Vec3 x0 = X[node] + now.u.segment<3>(3 * node) - c0[k];
+      const Vec3 x = X[node] + trial.u.segment<3>(3 * node) - c[k];
+      const double gap0 = shape_at(contacts[k].shape, x0).gap;
+      share = std::min(share, share_to_close(gap0, shape_at(contacts[k].shape, x).gap));
+    }
+  }
+  for (std::size_t s = 0; s < surfaces.surfaces().size(); ++s) {
+    if (!bears_nothing(now.r[contacts.size() + s])) continue;
+    std::map<int, double> gap0;  // by candidate
+    for (const MortarNode& node : surfaces.at(X, now.u)[s]) gap0[node.candidate] = node.gap();
+    for (const MortarNode& node : surfaces.at(X, trial.u)[s]) {
+      const auto earlier = gap0.find(node.candidate);
+      if (earlier == gap0.end()) continue;
+      share = std::min(share, share_to_close(earlier->second, node.gap()));
+    }
+  }
+  return share;
 }
 
 IncrementMove IncrementState::increment_move(const VecX& end) const {

@@ -92,7 +92,11 @@ struct IncrementState {
   // Sets where the slip of the candidates begins within this increment (contact/touch.hpp).
   void slip_from_touch();
   void slip_from_touch(std::size_t k, const VecX& end);
-  double slip_tolerance() const;                        // [mm]
+  double slip_tolerance() const;  // [mm]
+  // Whether a contact bears nothing at the accepted state, and where on the way to the trial the
+  // first node of such a contact touches: a share, 1 where none does.
+  bool may_touch() const;
+  double share_before_touch() const;
   IncrementMove increment_move(const VecX& end) const;  // refers to `end`
   bool starts_with_travel() const;  // the slip of an indenter under force control
   // by its candidate, what the slip is measured from, per travel

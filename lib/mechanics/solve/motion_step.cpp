@@ -22,7 +22,7 @@ void MotionStep::begin(double seconds) {
   body_.load_to(inertia.conserves() ? 0.5 * (now_.t + trial_.t) : trial_.t);
   const VecX du = predicted_move();
   if (state_.options.extrapolate && state_.admissible(now_.u + du)) {
-    body_.predict_pressures(du, 1);
+    if (inertia.conserves()) body_.predict_pressures(du, 1);
     trial_.u += du;
   }
   if (state_.controlled_index >= 0 && state_.controlled()->control->free())
@@ -35,7 +35,9 @@ void MotionStep::begin(double seconds) {
 
 // Where the body goes with the mean velocity of the last increment. The velocity at its end serves
 // for the first one only: where a step is long beside the periods of the mesh, it alternates from
-// step to step, and pressures that follow from it mean nothing.
+// step to step. Pressures stay as they are, since the predicted movement keeps volumes to first
+// order only: near incompressibility the pressures that belong to it would outweigh all else. The
+// conserving scheme, whose Newton's method goes to the last digits, keeps one more by them.
 VecX MotionStep::predicted_move() const {
   const Inertia& inertia = *state_.options.inertia;
   const double last = now_.t - before_.t;

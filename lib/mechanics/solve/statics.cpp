@@ -92,6 +92,11 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   } else {
     before_ = accepted;
   }
+  // The tangent of the accepted state has the mass of the increment that led to it.
+  if (before && state_.options.inertia && now_.t > before->t) {
+    const double seconds = (now_.t - before->t) * state_.options.seconds;
+    state_.options.inertia->begin(before->u, before->travel, before->motion, seconds);
+  }
   factors_.forget();
   step_.begin();
   trial_.t = now_.t;
@@ -102,6 +107,15 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   state_.u_start.assign(state_.contacts.size(), now_.u);
   border_.take_pressures_of(now_);
   if (!state_.bonds.none()) begin_bonds();
+}
+
+double Statics::end_at_touch(double t) {
+  constexpr double least = 0.05;  // of the increment: a shorter rest is not cut off
+  if (!state_.may_touch()) return t;
+  begin(t);
+  const double share = state_.share_before_touch();
+  if (share < least || share > 1 - least) return t;
+  return now_.t + share * (t - now_.t);
 }
 
 void Statics::begin(double t) {

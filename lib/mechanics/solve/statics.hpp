@@ -119,6 +119,9 @@ class Statics {
     if (const MixedTangent* mixed = factors_.factor.mixed()) return &mixed->solver();
     return nullptr;
   }
+  // Where an increment to t should end so that the first touch in it comes at its end; t where
+  // nothing touches, or at once. Begins an increment.
+  double end_at_touch(double t);
   // of the trial of a body in motion (Inertia::error())
   double motion_error() const { return motion_.error(); }
   const Inertia* inertia() const { return state_.options.inertia; }

@@ -239,9 +239,15 @@ RunEnd Run::follow(const RunListener& listener) {
     };
     return on_root_rank(shared_by(), record) && (signal = signal_of(shared_by())) == 0;
   };
+  // An increment of a body in motion ends where something touches, so that no touch falls into one.
+  std::function<double(double)> cut;
+  if (inertia)
+    cut = [this](double t) {
+      return statics.end_at_touch(t);
+    };
   std::vector<double> stops = reduction.scene().stops;
   if (switch_) stops.push_back(switch_->t);
-  end.path = load_path(path, t_, increment_, stops, attempt, accepted);
+  end.path = load_path(path, t_, increment_, stops, attempt, accepted, cut);
   if (!shared_by()) signal = interrupted();
   if (!end.path.complete && end.at == RunEnd::At::the_end)
     end.at = signal != 0 ? RunEnd::At::signal : RunEnd::At::no_equilibrium;
