@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/model/scene_motion.hpp"
 #include "scene/model/torque.hpp"
 #include "scene/run/step_forces.hpp"
 #include "scene/run/step_record.hpp"
@@ -65,8 +66,16 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
       parameters_(config, run.mesh, run.scene, where),
       last_(run.statics.accepted()),
       earlier_(last_) {
+  for (std::size_t i = 0; i < parameters().size(); ++i) {
+    if (!run.inertia || !parameters_.layer(i)) continue;
+    const std::string key = fmt::format("sensitivity[{}]", i);
+    throw Failure(Exit::config, Error{where(key), key, "found a thickness together with dynamics",
+                                      "numbers of the material, of friction or of an indenter",
+                                      "the mass of a layer changes with its thickness"});
+  }
   StateDerivative rest;
   rest.u = VecX::Zero(last_.u.size());
+  if (run.inertia) rest.motion.v = rest.motion.a = rest.motion.b = rest.u;
   d_last_.assign(parameters().size(), rest);
   d_earlier_ = d_last_;
 }
@@ -278,6 +287,11 @@ void Sensitivity::advance(const StepRecord& record) {
   d_last_ = std::move(d);
 }
 
+// Whether an indenter flies by itself.
+bool Sensitivity::has_mass_of_its_own() const {
+  return run_.inertia && run_.inertia->options().travel_mass > 0;
+}
+
 // The derivative of a state of the reduced body, as a record.
 StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative& d,
                                 const VecX& reactions, double energy) const {
@@ -296,6 +310,16 @@ StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative&
       out.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = force[j];
     if (contacts[k].control) out.scalars[travel_of(contacts[k])] = d.travel;
     out.force_ind += force;
+  }
+  if (d.motion.present()) {
+    out.point_fields[velocity_field] = by_node(d.motion.v);
+    out.point_fields[acceleration_field] = by_node(d.motion.a);
+    out.point_fields[carried_field] = by_node(d.motion.b);
+    if (has_mass_of_its_own()) {
+      out.scalars[indenter_velocity] = d.motion.travel_v;
+      out.scalars[indenter_acceleration] = d.motion.travel_a;
+      out.scalars[indenter_carried] = d.motion.travel_b;
+    }
   }
   return out;
 }
@@ -352,6 +376,11 @@ void Sensitivity::write(StepRecord& whole) const {
     whole.point_fields[derivative_name("u", p)] = d.u;
     whole.point_fields[derivative_name("reaction", p)] = d.reaction;
     auto& scalars = whole.scalars;
+    for (const auto& [field, values] : d.point_fields)
+      whole.point_fields[derivative_name(field, p)] = values;
+    for (const char* of_indenter : {indenter_velocity, indenter_acceleration, indenter_carried})
+      if (has_mass_of_its_own())
+        scalars[derivative_name(of_indenter, p)] = d.scalars.at(of_indenter);
     scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
     if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
     for (int k = 0; k < 3 && !contacts.empty(); ++k)
@@ -388,8 +417,15 @@ void Sensitivity::kept(const StepRecord& whole) {
   for (const SceneParameter& p : parameters()) {
     StepRecord like = whole;
     like.u = whole.point_fields.at(derivative_name("u", p));
+    for (const char* field : {velocity_field, acceleration_field, carried_field})
+      if (run_.inertia) like.point_fields[field] = whole.point_fields.at(derivative_name(field, p));
+    for (const char* of_indenter : {indenter_velocity, indenter_acceleration, indenter_carried})
+      if (has_mass_of_its_own())
+        like.scalars[of_indenter] = whole.scalars.at(derivative_name(of_indenter, p));
     StateDerivative& d = d_last_.emplace_back();
-    d.u = run_.reduction.reduced(like).u;
+    BodyState of_part = run_.reduction.reduced(like);
+    d.u = std::move(of_part.u);
+    d.motion = std::move(of_part.motion);
     for (const RigidContact& contact : run_.scene.contacts)
       if (contact.control)
         d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));

@@ -4,7 +4,7 @@
 // Every accepted state is differentiated directly (solve/state_tangent.hpp). For a parameter of the
 // material, the change of the internal force with u fixed is a difference of two forces; it is
 // exact for moduli, in which forces are linear. With friction an increment needs the derivatives of
-// the two before it.
+// the two before it; of a body in motion, those of velocities and accelerations.
 #pragma once
 
 #include <map>
@@ -51,6 +51,7 @@ class Sensitivity {
   const std::vector<StepRecord>& now() const { return now_; }
 
  private:
+  bool has_mass_of_its_own() const;
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
   Assembler::Forces change_by_thickness(std::size_t i);

@@ -150,9 +150,9 @@ MotionState Inertia::at_start() const {
 }
 
 void Inertia::begin(const VecX& u, double travel, const MotionState& motion, double seconds) {
-  u0_ = u;
-  travel0_ = travel;
-  start_ = motion;
+  step_.u0 = u;
+  step_.travel0 = travel;
+  step_.start = motion;
   step_.h = seconds;
   const double rho = options_.rho_inf;
   step_.am = (2 * rho - 1) / (rho + 1);
@@ -173,7 +173,7 @@ void Inertia::begin(const VecX& u, double travel, const MotionState& motion, dou
       step_.v_u = 1 / (options_.theta * step_.h);
       break;
   }
-  travel_k_ = options_.travel_mass * step_.a_u;
+  step_.travel_k = options_.travel_mass * step_.a_u;
   for (std::size_t i = 0; i < M_values_.size(); ++i) tangent_[i] = step_.a_u * M_values_[i];
   for (std::size_t i = 0; i < C_values_.size(); ++i) tangent_[i] += step_.v_u * C_values_[i];
 }
@@ -182,52 +182,61 @@ double Inertia::force_scale() const { return (mass_.M * acceleration_).norm(); }
 
 VecX Inertia::predicted() const {
   const double h = conserves() ? 0.5 * step_.h : step_.h;
-  VecX du = VecX::Zero(u0_.size());
-  for (int dof : body_.dofs().free) du[dof] = h * start_.v[dof];
+  VecX du = VecX::Zero(step_.u0.size());
+  for (int dof : body_.dofs().free) du[dof] = h * step_.start.v[dof];
   return du;
 }
 
 double Inertia::predicted_travel() const {
-  return step_.h * start_.travel_v + 0.5 * step_.h * step_.h * start_.travel_a;
+  return step_.h * step_.start.travel_v + 0.5 * step_.h * step_.h * step_.start.travel_a;
 }
 
-// The acceleration that M meets in the balance, of the unknown of the scheme.
-VecX Inertia::acceleration_at(const VecX& u) const {
+// The acceleration that M meets in the balance.
+VecX Inertia::acceleration_of(const VecX& moved, const MotionState& start) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 = (u - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
-                      (0.5 - step_.beta) / step_.beta * start_.b;
-      return ((1 - step_.am) * b1 + step_.am * start_.b - step_.af * start_.a) / (1 - step_.af);
+      const VecX b1 = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
+                      (0.5 - step_.beta) / step_.beta * start.b;
+      return ((1 - step_.am) * b1 + step_.am * start.b - step_.af * start.a) / (1 - step_.af);
     }
     case Scheme::energy_momentum:
-      return (4 / step_.h * (u - u0_) - 2 * start_.v) / step_.h;
+      return (4 / step_.h * moved - 2 * start.v) / step_.h;
     case Scheme::theta:
       break;
   }
-  return (velocity_at(u) - start_.v) / (step_.h * options_.xi);
+  return (velocity_of(moved, start) - start.v) / (step_.h * options_.xi);
 }
 
 // The velocity that C meets in the balance.
-VecX Inertia::velocity_at(const VecX& u) const {
+VecX Inertia::velocity_of(const VecX& moved, const MotionState& start) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 = (u - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
-                      (0.5 - step_.beta) / step_.beta * start_.b;
-      return start_.v + step_.h * ((1 - step_.gamma) * start_.b + step_.gamma * b1);
+      const VecX b1 = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
+                      (0.5 - step_.beta) / step_.beta * start.b;
+      return start.v + step_.h * ((1 - step_.gamma) * start.b + step_.gamma * b1);
     }
     case Scheme::energy_momentum:
-      return 2 / step_.h * (u - u0_);
+      return 2 / step_.h * moved;
     case Scheme::theta:
       break;
   }
-  return ((u - u0_) / step_.h - (1 - options_.theta) * start_.v) / options_.theta;
+  return (moved / step_.h - (1 - options_.theta) * start.v) / options_.theta;
+}
+
+// Of an indenter with mass, by generalised_alpha.
+double Inertia::travel_acceleration_of(double moved, const MotionState& start) const {
+  const double b1 = (moved - step_.h * start.travel_v) / (step_.beta * step_.h * step_.h) -
+                    (0.5 - step_.beta) / step_.beta * start.travel_b;
+  return ((1 - step_.am) * b1 + step_.am * start.travel_b - step_.af * start.travel_a) /
+         (1 - step_.af);
 }
 
 VecX Inertia::force(const VecX& u) {
-  acceleration_ = acceleration_at(u);
+  const VecX moved = u - step_.u0;
+  acceleration_ = acceleration_of(moved, step_.start);
   last_force_ = mass_.M * acceleration_ - weight_;
-  if (damping_) last_force_ += *damping_ * velocity_at(u);
-  if (uses_impulses()) last_force_ -= (1 - options_.xi) / options_.xi * start_.b;
+  if (damping_) last_force_ += *damping_ * velocity_of(moved, step_.start);
+  if (uses_impulses()) last_force_ -= (1 - options_.xi) / options_.xi * step_.start.b;
   return last_force_;
 }
 
@@ -239,67 +248,92 @@ VecX Inertia::tangent_times(const VecX& du) const {
 
 double Inertia::travel_force(double travel) const {
   const double m = options_.travel_mass;
-  const double moved = travel - travel0_;
+  const double moved = travel - step_.travel0;
   if (uses_impulses()) {
-    const double v1 = (moved / step_.h - (1 - options_.theta) * start_.travel_v) / options_.theta;
-    return (options_.travel_weight - m * (v1 - start_.travel_v) / step_.h) / options_.xi;
+    const double v1 =
+        (moved / step_.h - (1 - options_.theta) * step_.start.travel_v) / options_.theta;
+    return (options_.travel_weight - m * (v1 - step_.start.travel_v) / step_.h) / options_.xi;
   }
-  const double b1 = (moved - step_.h * start_.travel_v) / (step_.beta * step_.h * step_.h) -
-                    (0.5 - step_.beta) / step_.beta * start_.travel_b;
-  const double a1 =
-      ((1 - step_.am) * b1 + step_.am * start_.travel_b - step_.af * start_.travel_a) /
-      (1 - step_.af);
-  return options_.travel_weight - m * a1;
+  return options_.travel_weight - m * travel_acceleration_of(moved, step_.start);
 }
 
 VecX Inertia::end_of(const VecX& u) const {
-  if (conserves()) return VecX(2 * u - u0_);
+  if (conserves()) return VecX(2 * u - step_.u0);
   return u;
+}
+
+// By generalised_alpha.
+MotionState Inertia::end_of_move(const VecX& moved, double travelled,
+                                 const MotionState& start) const {
+  MotionState end;
+  end.b = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
+          (0.5 - step_.beta) / step_.beta * start.b;
+  end.a = acceleration_of(moved, start);
+  end.v = velocity_of(moved, start);
+  end.travel_b = (travelled - step_.h * start.travel_v) / (step_.beta * step_.h * step_.h) -
+                 (0.5 - step_.beta) / step_.beta * start.travel_b;
+  end.travel_a = travel_acceleration_of(travelled, start);
+  end.travel_v =
+      start.travel_v + step_.h * ((1 - step_.gamma) * start.travel_b + step_.gamma * end.travel_b);
+  settle_massless(moved, end);
+  return end;
 }
 
 MotionState Inertia::end(const VecX& u1, double travel1, const VecX& net) const {
   MotionState end;
-  const double moved = travel1 - travel0_;
+  const VecX moved = u1 - step_.u0;
+  const double travelled = travel1 - step_.travel0;
   switch (options_.scheme) {
-    case Scheme::generalised_alpha: {
-      end.b = (u1 - u0_ - step_.h * start_.v) / (step_.beta * step_.h * step_.h) -
-              (0.5 - step_.beta) / step_.beta * start_.b;
-      end.a = acceleration_at(u1);
-      end.v = velocity_at(u1);
-      end.travel_b = (moved - step_.h * start_.travel_v) / (step_.beta * step_.h * step_.h) -
-                     (0.5 - step_.beta) / step_.beta * start_.travel_b;
-      end.travel_a = ((1 - step_.am) * end.travel_b + step_.am * start_.travel_b -
-                      step_.af * start_.travel_a) /
-                     (1 - step_.af);
-      end.travel_v = start_.travel_v +
-                     step_.h * ((1 - step_.gamma) * start_.travel_b + step_.gamma * end.travel_b);
+    case Scheme::generalised_alpha:
+      end = end_of_move(moved, travelled, step_.start);
       break;
-    }
     case Scheme::energy_momentum:
-      end.v = 2 / step_.h * (u1 - u0_) - start_.v;
-      end.a = (end.v - start_.v) / step_.h;
+      end.v = 2 / step_.h * moved - step_.start.v;
+      end.a = (end.v - step_.start.v) / step_.h;
       end.b = end.a;
+      settle_massless(moved, end);
       break;
     case Scheme::theta:
-      end.v = velocity_at(u1);
-      end.a = (end.v - start_.v) / step_.h;
+      end.v = velocity_of(moved, step_.start);
+      end.a = (end.v - step_.start.v) / step_.h;
       end.b = net + weight_;
       if (damping_) end.b -= *damping_ * end.v;
-      end.travel_v = (moved / step_.h - (1 - options_.theta) * start_.travel_v) / options_.theta;
-      end.travel_a = (end.travel_v - start_.travel_v) / step_.h;
+      end.travel_v =
+          (travelled / step_.h - (1 - options_.theta) * step_.start.travel_v) / options_.theta;
+      end.travel_a = (end.travel_v - step_.start.travel_v) / step_.h;
+      settle_massless(moved, end);
       break;
-  }
-  // A node without mass follows the others. Its velocity is that of the increment: differences of
-  // second order would remember the one with which it met an indenter.
-  for (std::size_t dof = 0; dof < massless_.size(); ++dof) {
-    if (!massless_[dof]) continue;
-    const auto i = static_cast<Eigen::Index>(dof);
-    end.v[i] = (u1[i] - u0_[i]) / step_.h;
-    end.a[i] = 0;
-    if (!uses_impulses()) end.b[i] = 0;
   }
   end.kinetic = kinetic(end);
   return end;
+}
+
+// A node without mass follows the others. Its velocity is that of the increment: differences of
+// second order would remember the one with which it met an indenter.
+void Inertia::settle_massless(const VecX& moved, MotionState& end) const {
+  for (std::size_t dof = 0; dof < massless_.size(); ++dof) {
+    if (!massless_[dof]) continue;
+    const auto i = static_cast<Eigen::Index>(dof);
+    end.v[i] = moved[i] / step_.h;
+    end.a[i] = 0;
+    if (!uses_impulses()) end.b[i] = 0;
+  }
+}
+
+VecX Inertia::force_of(const MotionState& motion) const {
+  VecX f = mass_.M * motion.a;
+  if (damping_) f += *damping_ * motion.v;
+  return f;
+}
+
+VecX Inertia::force_of_history(const VecX& u0, const MotionState& start) const {
+  VecX f = mass_.M * acceleration_of(-u0, start);
+  if (damping_) f += *damping_ * velocity_of(-u0, start);
+  return f;
+}
+
+double Inertia::travel_force_of_history(double travel0, const MotionState& start) const {
+  return -options_.travel_mass * travel_acceleration_of(-travel0, start);
 }
 
 double Inertia::kinetic(const MotionState& motion) const {
@@ -366,8 +400,8 @@ double Inertia::damped(const MotionState& before, const MotionState& after) cons
 double Inertia::error(const MotionState& after, double energy) const {
   if (!(energy > 0)) return 0;
   const double factor = uses_impulses() ? 0.5 : std::abs(step_.beta - 1. / 6);
-  const VecX change = factor * step_.h * (after.a - start_.a);
-  const double travel = factor * step_.h * (after.travel_a - start_.travel_a);
+  const VecX change = factor * step_.h * (after.a - step_.start.a);
+  const double travel = factor * step_.h * (after.travel_a - step_.start.travel_a);
   const double squared = change.dot(mass_.M * change) + options_.travel_mass * travel * travel;
   return std::sqrt(squared / (2 * energy));
 }

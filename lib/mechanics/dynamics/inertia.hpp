@@ -95,13 +95,24 @@ class Inertia : public AddedTerm {
 
   // The force that the indenter with mass gives to the body at this travel, and how fast it falls.
   double travel_force(double travel) const;
-  double travel_stiffness() const { return travel_k_; }
+  double travel_stiffness() const { return step_.travel_k; }
 
   // The displacements at the end, of the unknown of the scheme.
   VecX end_of(const VecX& u) const;
 
   // The state at the end of the increment. net: F_ext - F_int without inertia at the end (theta).
   MotionState end(const VecX& u1, double travel1, const VecX& net) const;
+
+  // For derivatives of a path, of generalised_alpha only, where all of this is linear. `start` and
+  // the movements are derivatives of the state that the increment began with and of the movement in
+  // it.
+  // Change of force() where the unknown stands still, and the same of travel_force().
+  VecX force_of_history(const VecX& u0, const MotionState& start) const;
+  double travel_force_of_history(double travel0, const MotionState& start) const;
+  // Velocities and accelerations at the end; energies are left out.
+  MotionState end_of_move(const VecX& moved, double travelled, const MotionState& start) const;
+  // M a + C v of such a state (3 n).
+  VecX force_of(const MotionState& motion) const;
 
   double at_start_kinetic() const { return kinetic_at_start_; }  // [N mm]
   double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
@@ -119,8 +130,11 @@ class Inertia : public AddedTerm {
   double force_scale() const;
 
  private:
-  VecX acceleration_at(const VecX& u) const;
-  VecX velocity_at(const VecX& u) const;
+  // Of the unknown of the scheme after the movement `moved` from u0; linear in both.
+  VecX acceleration_of(const VecX& moved, const MotionState& start) const;
+  VecX velocity_of(const VecX& moved, const MotionState& start) const;
+  double travel_acceleration_of(double moved, const MotionState& start) const;
+  void settle_massless(const VecX& moved, MotionState& end) const;
 
   const Assembler& body_;
   InertiaOptions options_;
@@ -137,12 +151,12 @@ class Inertia : public AddedTerm {
     double h = 1;                                     // [s]
     double am = 0, af = 0, beta = 0.25, gamma = 0.5;  // of generalised_alpha
     double a_u = 0, v_u = 0;                          // d a/du, d v/du of the unknown
+    double travel_k = 0;                              // how fast travel_force() falls [N/mm]
+    VecX u0;                                          // where it began
+    double travel0 = 0;
+    MotionState start;
   };
   Step step_;
-  double travel_k_ = 0;
-  VecX u0_;
-  double travel0_ = 0;
-  MotionState start_;
   std::vector<double> tangent_;
   VecX last_force_, acceleration_;
   double kinetic_at_start_ = 0;

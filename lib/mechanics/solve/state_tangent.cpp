@@ -78,7 +78,7 @@ void StateTangent::take_candidates() {
                      pushed_ ? increment_.controlled_index : -1};
   if (pushed_ && increment_.starts_with_travel())
     state.start_moves = slip_origin_change_with_travel(*increment_.controlled(), increment_move(),
-                                                       increment_.gap_tolerance);
+                                                       increment_.slip_tolerance());
   c_ = condensed(state, factor_, near_);
 }
 
@@ -142,6 +142,8 @@ void StateTangent::take_rows() {
     M.row(3 * m).segment<3>(3 * p) += typical * along.transpose();
     M.row(3 * m).head(3 * m) -= typical * (along.transpose() * springs) * c_.W.middleRows<3>(3 * p);
   }
+  // an indenter with mass gives less force where it has travelled further
+  if (pushed_) M(3 * m, 3 * m) += typical * increment_.force_falls();
   lu_.compute(M);
   singular_ = !(lu_.rcond() > 1e-14);
   if (singular_) least_.compute(M);
@@ -184,7 +186,7 @@ std::vector<Vec3> StateTangent::slip_of_history(const ParameterChange& change,
     ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
     d.gap0 = shape_rate(change, n.contact, move.X + move.u0 - move.c0).gap;
     d.gap = shape_rate(change, n.contact, move.X + move.u - move.c).gap;
-    const Vec3 from = slip_origin_change(contact, move, d, increment_.gap_tolerance) - d_c0;
+    const Vec3 from = slip_origin_change(contact, move, d, increment_.slip_tolerance()) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
   }
@@ -242,6 +244,12 @@ VecX StateTangent::right_hand_side(const ParameterChange& change,
     h.segment<2>(row + 1) -= rows_[p].r(1, 1) * d_mu * n.r[0] * s;
   }
   return h;
+}
+
+// Of an indenter with mass, by what the state before has changed.
+double StateTangent::travel_force_change(const StateDerivative& before) const {
+  if (increment_.controlled_index < 0 || !increment_.controlled()->control->free()) return 0;
+  return increment_.options.inertia->travel_force_of_history(before.travel, before.motion);
 }
 
 // rhs: on the free rows; h: of the candidates' rows
@@ -315,6 +323,7 @@ StateDerivative StateTangent::of_rest() const {
   d.u = VecX::Zero(increment_.body.dofs().n);
   for (const RigidContact& contact : increment_.contacts)
     d.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  if (increment_.options.inertia) d.motion.v = d.motion.a = d.motion.b = d.u;
   return d;
 }
 
@@ -352,10 +361,13 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
   if (!solvable_) return std::nullopt;
   StateDerivative out = of_rest();
   if (change.prescribed.size() > 0) out.u = change.prescribed;
-  const VecX f = -on_free_rows(change);
+  VecX f = -on_free_rows(change);
+  const Inertia* inertia = increment_.options.inertia;
+  if (inertia) f -= increment_.on_free_rows(inertia->force_of_history(before.u, before.motion));
   VecX rhs = f;
   VecX h =
       near_.empty() ? VecX() : right_hand_side(change, slip_of_history(change, before, earlier));
+  if (pushed_) h[h.size() - 1] = typical_.front() * travel_force_change(before);
   double size = rhs.norm();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {
@@ -384,7 +396,9 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     last = left;
   }
   if (!(last <= enough * size)) return std::nullopt;
-  if (increment_.controlled_index >= 0 && !pushed_) {  // it rests where it touches
+  if (increment_.force_falls() > 0 && !pushed_) {  // it flies
+    out.travel = travel_force_change(before) / increment_.force_falls();
+  } else if (increment_.controlled_index >= 0 && !pushed_) {  // it rests where it touches
     const std::vector<Vec3>& X = increment_.body.mesh().X;
     const auto position = [&](int node) {
       return Vec3(X[node] + increment_.now.u.segment<3>(3 * node));
@@ -402,6 +416,8 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     out.travel = touch_travel_change(*increment_.controlled(), increment_.now.t,
                                      increment_.now.travel, position, moved);
   }
+  if (inertia)
+    out.motion = inertia->end_of_move(out.u - before.u, out.travel - before.travel, before.motion);
   return out;
 }
 
@@ -413,11 +429,17 @@ std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& ch
   std::vector<VecX> u;
   for (const StateDerivative& d : derivatives) u.push_back(d.u);
   std::vector<VecX> out = body.prescribed_rows_times(increment_.now.u, u);
+  const Inertia* inertia = increment_.options.inertia;
+  VecX f_int = body.f_int();  // of the stored energy alone
+  if (inertia) f_int -= inertia->last_force();
   for (std::size_t j = 0; j < out.size(); ++j) {
     double of_moduli = 0;
     const VecX beside = body.nonsymmetric_part(increment_.now.u, u[j], &of_moduli);
-    if (energies) (*energies)[j] = body.f_int().dot(u[j]) + of_moduli;
+    if (energies) (*energies)[j] = f_int.dot(u[j]) + of_moduli;
+    VecX of_mass;
+    if (inertia) of_mass = inertia->force_of(derivatives[j].motion);
     for (const Prescribed& p : body.dofs().prescribed) {
+      if (of_mass.size() > 0) out[j][p.dof] += of_mass[p.dof];
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];
       if (beside.size() > 0) out[j][p.dof] += beside[p.dof];
     }

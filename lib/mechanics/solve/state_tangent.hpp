@@ -15,6 +15,10 @@
 // The factor of the accepted state solves the system, and iterations correct it for what K leaves
 // out: the modulus of linear_dilatation as a function of u, and pressures on a free rim. On the
 // edge between two states of a candidate, the derivative is that of the state which it has.
+//
+// Of a body in motion (generalised_alpha), accelerations are linear in the movement and in the
+// state before: with that state's derivatives the balance gets M a' of the history, K the mass, and
+// the force of an indenter with mass follows its travel.
 #pragma once
 
 #include <optional>
@@ -28,9 +32,10 @@ namespace langer {
 
 // Of a BodyState, per unit of the number.
 struct StateDerivative {
-  VecX u;             // (3 n)
-  Reactions r;        // global
-  double travel = 0;  // of the indenter under force control
+  VecX u;                   // (3 n)
+  Reactions r;              // global
+  double travel = 0;        // of the indenter under force control, or with mass
+  MotionState motion = {};  // of a body in motion: v, a, b and those of an indenter with mass
 };
 
 // An indenter whose number is a little less, or more, by `width` in all.
@@ -94,6 +99,7 @@ class StateTangent {
   Vec3 moved_against(const ParameterChange& change,
                      const Near& near) const;  // of prescribed dofs against the indenter, local
   VecX right_hand_side(const ParameterChange& change, const std::vector<Vec3>& history) const;
+  double travel_force_change(const StateDerivative& before) const;  // travel standing still [N]
   VecX on_free_rows(const ParameterChange& change) const;
   std::optional<Change> solve(const VecX& rhs, const VecX& h) const;
   void add(const Change& change, StateDerivative& to) const;

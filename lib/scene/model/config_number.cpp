@@ -44,6 +44,10 @@ std::optional<double> number_of(const Tree& tree) {
 // The direction in which an indenter sets out; zero where it stands still.
 Vec3 first_way(const ContactConfig& contact) {
   if (contact.control) return vec(contact.control->along).normalized();
+  if (contact.free) {
+    const Vec3 along = vec(contact.free->along).normalized();
+    return contact.free->speed() < 0 ? Vec3(-along) : along;
+  }
   for (const WaypointConfig& point : contact.motion)
     if (vec(point.to).norm() > 0) return vec(point.to).normalized();
   return Vec3::Zero();

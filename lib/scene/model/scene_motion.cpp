@@ -225,9 +225,9 @@ MotionState recorded_motion(
   const auto number = [&](const char* name) {
     return value_or(record.scalars, name, 0);
   };
-  motion.travel_v = number("indenter_velocity");
-  motion.travel_a = number("indenter_acceleration");
-  motion.travel_b = number("indenter_carried");
+  motion.travel_v = number(indenter_velocity);
+  motion.travel_a = number(indenter_acceleration);
+  motion.travel_b = number(indenter_carried);
   motion.kinetic = number("kinetic_energy");
   motion.stored = number("energy");
   motion.total = number("mechanical_energy");

@@ -29,6 +29,9 @@ bool keeps_motion(const Vec3& signs, const InertiaOptions& motion);
 inline constexpr const char* velocity_field = "velocity";
 inline constexpr const char* acceleration_field = "acceleration";
 inline constexpr const char* carried_field = "carried";
+inline constexpr const char* indenter_velocity = "indenter_velocity";
+inline constexpr const char* indenter_acceleration = "indenter_acceleration";
+inline constexpr const char* indenter_carried = "indenter_carried";
 
 // of_nodes: a recorded field of the whole body as one of the part that is solved; `shared`: of
 // forces, of which a node of the part stands for several.

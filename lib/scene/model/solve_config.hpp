@@ -393,7 +393,8 @@ struct SolveConfig {
       "fidelity is asked for; auto does so where it takes less than a third of the solve by the forecast, else as recovery. dual, on any mesh of an elastic "
       "body, without friction: forces, reactions and displacements by the dual solution of each, at about the cost of one iteration; together with "
       "accuracy hex8 are cut where the error comes from. recovery, on any mesh and at once: what the stress lacks to be smooth; of force and "
-      "stress, in an indentation some times too large; the default for elastic bodies of one material whose indenters follow `motion`. none");
+      "stress, in an indentation some times too large; the default for elastic bodies of one material whose indenters follow `motion`. none. Of a body in motion refinement alone: "
+      "peak force, contact time and restitution, on cells and increments longer by 1.4 and by 2");
     v(&SolveConfig::truncation, "truncation", unit::none,
       "of an indented_block or indented_disc that stands for a larger body: sides, bottom, or both; an estimate by refinement reports what "
       "each leaves out of the forces, from two coarse solves of wider or thicker bodies");
@@ -633,8 +634,17 @@ struct SolveConfig {
       found.push_back({"dynamics", "found on a path without seconds", "path: {seconds: ...}", ""});
     if (accuracy) refuse("accuracy", "none");
     if (fidelity) refuse("fidelity", "none");
-    if (estimate && *estimate != EstimateBy::none) refuse("estimate", "none");
-    if (!sensitivity.empty()) refuse("sensitivity", "none");
+    if (estimate && *estimate != EstimateBy::none && *estimate != EstimateBy::refinement)
+      refuse("estimate", "refinement or none");
+    if (estimate == EstimateBy::refinement && contacts.empty())
+      found.push_back({"estimate", "found together with dynamics and without contacts", "none",
+                       "errors are those of an impact: peak force, contact time, restitution"});
+    if (!sensitivity.empty() && dynamics->scheme != Scheme::generalised_alpha)
+      found.push_back({"sensitivity", "found with another scheme",
+                       "dynamics: {scheme: generalised_alpha}", ""});
+    if (!sensitivity.empty() && dynamics->damping && dynamics->damping->stiffness_s > 0)
+      found.push_back({"sensitivity", "found together with dynamics.damping.stiffness_s",
+                       "mass_per_s alone", "that damping changes with the material"});
     if (uncertainty == UncertaintyBy::linear) refuse("uncertainty", "none");
     if (reduce == Reduce::automatic) refuse("reduce", "none");
     if (stability == StabilityCheck::each_step || stability == StabilityCheck::last)

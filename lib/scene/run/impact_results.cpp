@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/fields.hpp"
 #include "core/base/text.hpp"
+#include "scene/model/scene_motion.hpp"
 
 namespace langer {
 
@@ -25,6 +27,28 @@ double zero_of_line(std::pair<double, double> a, std::pair<double, double> b, do
   const double slope = (b.second - a.second) / (b.first - a.first);
   if (slope == 0) return 0.5 * (low + high);
   return std::clamp(a.first - a.second / slope, low, high);
+}
+
+// The part of a name after `prefix`; empty: it begins otherwise.
+std::string after(const std::string& name, const std::string& prefix) {
+  if (name.starts_with(prefix)) return name.substr(prefix.size());
+  return "";
+}
+
+// Derivatives of the force's size, F . dF/|F|, and of the speed of an indenter with mass, by
+// number.
+void add_derivatives_of(const StepRecord& step, std::map<std::string, double>& force,
+                        std::map<std::string, double>& speed) {
+  const double size = step.force_ind.norm();
+  for (const auto& [name, value] : step.scalars) {
+    for (int k = 0; k < 3 && size > 0; ++k) {
+      const std::string component = std::string("d_force_") + "xyz"[k] + "_N_d_";
+      const std::string number = after(name, component);
+      if (!number.empty()) force[number] += value * step.force_ind[k] / size;
+    }
+    const std::string number = after(name, std::string("d_") + indenter_velocity + "_d_");
+    if (!number.empty()) speed[number] = value;
+  }
 }
 
 }  // namespace
@@ -51,7 +75,7 @@ void ImpactResults::add(const StepRecord& step) {
   if (surfaces_.empty()) state.force = step.force_ind.norm();
   for (const std::string& name : surfaces_) state.force += step.scalars.at("force_" + name);
   state.gap = smallest_gap(step);
-  state.speed = value_or(step.scalars, "indenter_velocity", 0);
+  state.speed = value_or(step.scalars, indenter_velocity, 0);
   for (int k = 0; k < 3; ++k) {
     state.momentum[k] = step.scalars.at(std::string("momentum_") + "xyz"[k]);
     double sign = 1;
@@ -60,6 +84,7 @@ void ImpactResults::add(const StepRecord& step) {
       sign = -1;
     }
   }
+  add_derivatives_of(step, state.d_force, state.d_speed);
   states_.push_back(state);
 }
 
@@ -67,15 +92,16 @@ std::vector<Summary> ImpactResults::summary() const {
   if (!moves_) return {};
   std::size_t first = 0;  // first and last state in contact
   std::size_t last = 0;
-  double peak = 0;
+  std::size_t peak = 0;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (!(states_[i].force > 0)) continue;
     if (first == 0) first = i;
     last = i;
-    peak = std::max(peak, states_[i].force);
+    if (states_[i].force > states_[peak].force) peak = i;
   }
   if (first == 0) return {};
-  std::vector<Summary> out{{"peak_force", peak, "N"}};
+  std::vector<Summary> out{{"peak_force", states_[peak].force, unit::N}};
+  add_derivatives(peak, first, last, out);
   if (last + 1 >= states_.size()) return out;
   out.push_back({"contact_time", parting_time(last) - touch_time(first), "s"});
   if (!surfaces_.empty() && pair_.empty()) return out;  // the momentum of all is that of the start
@@ -116,6 +142,18 @@ double ImpactResults::parting_time(std::size_t last) const {
   const State& earlier = states_[last - 1];
   return zero_of_line({touching.time, touching.force}, {earlier.time, earlier.force}, touching.time,
                       after.time);
+}
+
+void ImpactResults::add_derivatives(std::size_t peak, std::size_t first, std::size_t last,
+                                    std::vector<Summary>& out) const {
+  for (const auto& [number, derivative] : states_[peak].d_force) {
+    out.push_back({"d_peak_force_d_" + number, derivative, "-"});
+  }
+  if (!free_ || last + 1 >= states_.size()) return;
+  // Before the first touch nothing depends on the numbers.
+  for (const auto& [number, derivative] : states_[last + 1].d_speed) {
+    out.push_back({"d_restitution_d_" + number, -derivative / states_[first - 1].speed, "-"});
+  }
 }
 
 double ImpactResults::restitution(std::size_t first, std::size_t last) const {

@@ -9,8 +9,12 @@
 //                  two bodies of the velocity between their centres
 // Where deformable surfaces touch, the force is that between them, of several pairs the sum.
 // Nothing is said of a path without contact, or that ends in contact (but its peak force).
+// Where a run has derivatives (key `sensitivity`), those of the peak force and of the restitution
+// of an indenter with mass are results, too: d_peak_force_d_<number>. The peak force is that of a
+// step, so its derivative is that of the force there.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,10 +37,13 @@ class ImpactResults {
     double gap = 0;  // the smallest of all candidates [mm]
     Vec3 momentum = Vec3::Zero();
     Vec3 separation = Vec3::Zero();  // velocity of the first of two bodies from the second [mm/s]
+    std::map<std::string, double> d_force, d_speed;  // by number
   };
   double touch_time(std::size_t first) const;
   double parting_time(std::size_t last) const;
   double restitution(std::size_t first, std::size_t last) const;
+  void add_derivatives(std::size_t peak, std::size_t first, std::size_t last,
+                       std::vector<Summary>& out) const;
   std::vector<State> states_;
   std::vector<std::string> surfaces_;                 // names of pairs of deformable surfaces
   std::vector<std::pair<std::string, double>> pair_;  // two bodies and their masses [t]; else empty

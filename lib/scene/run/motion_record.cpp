@@ -75,9 +75,9 @@ void record_motion(const Statics& statics, const Assembler& body, StepRecord& re
     for (int k = 0; k < 3; ++k) scalars["momentum_" + one.name + "_" + "xyz"[k]] = of_one[k];
   }
   if (statics.inertia()->options().travel_mass > 0) {
-    scalars["indenter_velocity"] = motion.travel_v;
-    scalars["indenter_acceleration"] = motion.travel_a;
-    scalars["indenter_carried"] = motion.travel_b;
+    scalars[indenter_velocity] = motion.travel_v;
+    scalars[indenter_acceleration] = motion.travel_a;
+    scalars[indenter_carried] = motion.travel_b;
   }
 }
 
