@@ -63,7 +63,8 @@ Case read_case(const Job<SolveConfig>& job) {
   input.parameters = prepare_uncertainty(input.job.config, material_file, job.where);
   if (input.job.config.in_motion()) {
     // What judges equilibria has nothing to say of a motion.
-    input.job.config.estimate = EstimateBy::none;
+    if (input.job.config.estimate != EstimateBy::refinement)
+      input.job.config.estimate = EstimateBy::none;
     input.job.config.stability = StabilityCheck::off;
     input.job.config.homogeneous = Homogeneous::off;
   }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "accuracy/estimate/dual_estimate.hpp"
+#include "accuracy/estimate/observed_law.hpp"
 #include "accuracy/estimate/refinements.hpp"
 #include "accuracy/estimate/truncation.hpp"
 #include "core/base/interrupt.hpp"
@@ -90,56 +91,6 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   const double A = w.dot(dx.cwiseProduct(dq)) / w.dot(dx.cwiseProduct(dx));
   const VecX left = dq - A * dx;
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
-}
-
-// What three meshes show by themselves, the finest first: q = f + A length^p with the p that they
-// have, p at most `theory`. Differences of opposite signs follow no such law: then the larger one
-// is taken for the scatter.
-struct ObservedLaw {
-  double limit;
-  double order;
-  double scatter;
-  bool grows;  // p is so small that nothing shows a limit
-};
-std::optional<ObservedLaw> observed_law(const std::vector<double>& length,
-                                        const std::vector<double>& values, double theory) {
-  constexpr double least = 0.35;  // a smaller order is none
-  if (length.size() != 3 || values.size() != 3) return std::nullopt;
-  const double near = values[1] - values[0];
-  const double far = values[2] - values[1];
-  const double rounding = 1e-9 * std::abs(values[0]);
-  if (std::abs(near) <= rounding) return ObservedLaw{values[0], theory, 0.5 * std::abs(far), false};
-  const auto ratio = [&](double p) {
-    return (std::pow(length[1], p) - std::pow(length[0], p)) /
-           (std::pow(length[2], p) - std::pow(length[1], p));
-  };
-  const auto limit = [&](double p) {
-    return values[0] - near / (std::pow(length[1] / length[0], p) - 1);
-  };
-  if (near * far <= 0) {
-    const double larger = std::max(std::abs(near), std::abs(far));
-    return ObservedLaw{values[0], theory, larger, false};
-  }
-  const double found = near / far;
-  if (found >= ratio(least)) return ObservedLaw{limit(least), least, 0, true};
-  double low = least;
-  double high = 8;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (ratio(middle) > found) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  if (low <= theory) return ObservedLaw{limit(low), low, 0, false};
-  // Falling faster than theory says, by superconvergence or as two errors happen to cancel: the
-  // larger difference then says more.
-  const double by_far =
-      values[0] - (values[2] - values[0]) / (std::pow(length[2] / length[0], theory) - 1);
-  const double by_near = limit(theory);
-  const bool far_is_further = std::abs(by_far - values[0]) > std::abs(by_near - values[0]);
-  return ObservedLaw{far_is_further ? by_far : by_near, theory, 0, false};
 }
 
 // The greatest stress below an indenter lies between points of the cells, wherever these are: by
@@ -259,14 +210,7 @@ std::vector<Valued> on_path(std::vector<Valued> found, const std::vector<StepFor
 
 }  // namespace
 
-SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
-                       const Find& where, const std::function<RunListener(const Run&)>& listener) {
-  SolvedPath solved;
-  const double begun = cpu_seconds();
-  Run run(body_mesh(config, "", where), config, material, where);
-  RunListener progress;
-  if (listener) progress = listener(run);
-  const RunEnd end = run.follow(collecting(std::move(progress), config, run, solved.path));
+void need_the_end_of_other(const RunEnd& end) {
   if (end.at == RunEnd::At::signal)
     throw Failure(exit_code_of(interrupted()),
                   Error{{}, "", fmt::format("stopped by {}", signal_name(interrupted())), "", ""});
@@ -279,6 +223,17 @@ SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>&
                           end.path.t, end.path.why),
               "",
               ""});
+}
+
+SolvedPath solved_path(const SolveConfig& config, const std::optional<Material>& material,
+                       const Find& where, const std::function<RunListener(const Run&)>& listener) {
+  SolvedPath solved;
+  const double begun = cpu_seconds();
+  Run run(body_mesh(config, "", where), config, material, where);
+  RunListener progress;
+  if (listener) progress = listener(run);
+  const RunEnd end = run.follow(collecting(std::move(progress), config, run, solved.path));
+  need_the_end_of_other(end);
   solved.found = on_path(valued(config, run.scene, run.mesh, end.last), solved.path);
   solved.seconds = cpu_seconds() - begun;
   return solved;
@@ -627,11 +582,16 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
 
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,
                         const Find& where) {
-  const Refinements refined = refinements(config, where);
   const auto seconds = [&](const SolveConfig& scene) {
     return forecast_of(scene, material, where).seconds();
   };
   double sum = 0;
+  if (config.in_motion()) {
+    for (const LongerScene& scene : longer_in_space_and_time(config, where))
+      sum += seconds(scene.config);
+    return sum;
+  }
+  const Refinements refined = refinements(config, where);
   if (refined.per_change != 0) sum = seconds(refined.other_increments);
   for (const auto* scenes : {&refined.hex8, &refined.hex27})
     for (const SolveConfig& scene : *scenes) sum += seconds(scene);

@@ -59,6 +59,10 @@ std::vector<Valued> valued_forces(const StepForces& forces);
 std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const Mesh& mesh,
                            const StepRecord& state);
 
+// Throws Failure(not_converged) where the run of another scene did not reach t = 1, or one with the
+// signal's code where one has come.
+void need_the_end_of_other(const RunEnd& end);
+
 // A config that holds its mesh, solved without a file.
 struct SolvedPath {
   std::vector<Valued> found;     // at t = 1

@@ -24,6 +24,7 @@ constexpr double resolves_edge =
 constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
 constexpr std::array cheap{1.4, 1.75};  // for estimate: auto, together about a fifth of the solve
+constexpr std::array longer_impact{1.4, 2.0};  // in space and in time
 constexpr double close_enough =
     1e-5;  // residual, relative to the reactions: errors are asked to two digits
 constexpr double few = 0.125;  // increments that are longer do not follow their law
@@ -57,6 +58,15 @@ void need_some_cells(const Geometry& geometry, const Find& where) {
   for (std::size_t i = 0; i < n.size(); ++i)
     if (n[i] == 2 || n[i] == 3)
       throw too_few_cells(fmt::format(" along {} ({}; 1, or 4 and more)", "xyz"[i], n[i]), where);
+}
+
+void need_numbers_of_cells(const SolveConfig& config, const Find& where) {
+  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry))
+    throw Failure(Exit::config,
+                  Error{where("estimate"), "estimate",
+                        "a mesh whose cells follow from no numbers of this config",
+                        "geometry: {block: ...}, section, indented_block or indented_disc", ""});
+  need_some_cells(config.mesh->geometry, where);
 }
 
 // a mesh with an odd number of cells has less of it than one that names it
@@ -117,16 +127,48 @@ void add_family(Refinements& refined, const SolveConfig& config) {
 
 }  // namespace
 
+std::vector<LongerScene> longer_in_space_and_time(const SolveConfig& config, const Find& where) {
+  need_numbers_of_cells(config, where);
+  constexpr double usual_error = 0.1;  // in percent: dynamics.error without a key
+  std::vector<LongerScene> out;
+  for (std::size_t i = 0; i < longer_impact.size(); ++i) {
+    LongerScene& longer = out.emplace_back();
+    longer.config = config;
+    Geometry& geometry = longer.config.mesh->geometry;
+    longer.length = longer_impact[i];
+    if (auto* family = family_of(geometry)) {
+      const int parts = 3 - static_cast<int>(i);  // of the solved mesh: 4
+      family->parts = parts;
+      longer.length = 4.0 / parts;
+    } else if (has_edge_in_contact_radii(geometry)) {
+      scale_cells(geometry, longer.length);
+    } else {
+      lengthen_cells(geometry, longer.length);
+      longer.length = cells_along(config.mesh->geometry) / cells_along(geometry);
+    }
+    if (!has_edge_in_contact_radii(geometry)) any_symmetry(longer.config);
+    const double before = i == 0 ? 1 : out[i - 1].length;
+    if (longer.length < apart * before) throw too_few_cells("", where);
+    DynamicsConfig& dynamics = *longer.config.dynamics;
+    if (dynamics.step) {
+      *dynamics.step *= longer.length;
+    } else if (config.path.steps) {
+      longer.config.path.use_increment(longer.length * config.path.largest_increment());
+    } else {
+      double error = usual_error;
+      if (dynamics.error) error = percent_of(*dynamics.error).value_or(usual_error);
+      // the error per time grows with the square of the increment
+      dynamics.error = fmt::format("{:.17g}%", error * longer.length * longer.length);
+    }
+  }
+  return out;
+}
+
 Refinements refinements(const SolveConfig& given, const Find& where) {
   SolveConfig config = given;
   if (auto* newton = std::get_if<NewtonOptions>(&config.solver))
     newton->relative = std::max(newton->relative, close_enough);
-  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry))
-    throw Failure(Exit::config,
-                  Error{where("estimate"), "estimate",
-                        "a mesh whose cells follow from no numbers of this config",
-                        "geometry: {block: ...}, section, indented_block or indented_disc", ""});
-  need_some_cells(config.mesh->geometry, where);
+  need_numbers_of_cells(config, where);
   Refinements refined;
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;

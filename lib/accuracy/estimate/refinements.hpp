@@ -33,4 +33,13 @@ struct Refinements {
 Refinements refinements(const SolveConfig& config,
                         const std::function<Place(const std::string&)>& where);
 
+// Of a body in motion: two scenes whose elements and increments are longer by one factor, which is
+// `length`. Throws as refinements().
+struct LongerScene {
+  SolveConfig config;
+  double length = 1;
+};
+std::vector<LongerScene> longer_in_space_and_time(
+    const SolveConfig& config, const std::function<Place(const std::string&)>& where);
+
 }  // namespace langer

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accuracy/checks/progress.hpp"
+#include "accuracy/estimate/impact_errors.hpp"
 #include "core/base/interrupt.hpp"
 #include "scene/run/dry_run.hpp"
 
@@ -45,9 +46,10 @@ void report_costs(const Voice& voice, const PathErrors& found) {
   voice.detail("{}", words);
 }
 
-// What a scene is solved for: what `accuracy` judges, forces, torques and travels.
+// What a scene is solved for: what `accuracy` judges, forces, torques, travels and the results of
+// an impact.
 bool is_main_result(const ErrorEstimate& e) {
-  return e.asked || e.of.of_force() || e.of.of_travel();
+  return e.asked || e.of.of_force() || e.of.of_travel() || is_of_impact(e.of.name);
 }
 
 bool has_estimate(const std::vector<ErrorEstimate>& estimates, const std::string& name) {
@@ -81,14 +83,18 @@ PathErrors report_errors(const Voice& voice, const SolveConfig& config,
                          const StepRecord& last, const Recording& recording,
                          const RecoveredPath& recovered, bool resolved) {
   PathErrors found;
+  const EstimateListener progress_of_other = [&](const Run& other, int n, int of) {
+    return estimate_progress(voice, other, n, of);
+  };
   try {
     if (config.estimate == EstimateBy::none) return found;
     if (config.estimate == EstimateBy::recovery)
       found = recovered.errors(last, valued(config, run.scene, run.mesh, last), resolved);
+    else if (config.in_motion())
+      found = impact_errors(config, material, where, recording.impact_summary(), recording.forces(),
+                            progress_of_other);
     else
-      found = estimated(
-          config, material, where, run, last, recording.forces(),
-          [&](const Run& other, int n, int of) { return estimate_progress(voice, other, n, of); });
+      found = estimated(config, material, where, run, last, recording.forces(), progress_of_other);
   } catch (const Failure& failure) {
     if (interrupted()) recording.stopped_in_estimate();
     if (failure.code() != Exit::not_converged) throw;
