@@ -28,8 +28,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FILES = [
     "mechanics/material/*.cpp", "mechanics/element/*.cpp", "mechanics/contact/*.cpp",
-    "mechanics/assembly/*.cpp", "mechanics/solve/*.cpp", "mechanics/nonlinear/newton.cpp",
-    "mechanics/nonlinear/load_path.cpp",
+    "mechanics/assembly/*.cpp", "mechanics/dynamics/*.cpp", "mechanics/solve/*.cpp",
+    "mechanics/nonlinear/newton.cpp", "mechanics/nonlinear/load_path.cpp",
 ]
 # Programs whose test cases are tried.
 PROGRAMS = [

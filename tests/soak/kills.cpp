@@ -249,7 +249,7 @@ int main(int argc, char** argv) {
         "-o", "OUT/sweep.h5"},
        "sweep.h5"},
       // a plate pressed on and suction, a sphere that turns with friction, one that is pushed,
-      // bonds that come loose
+      // bonds that come loose, a block that is thrown at a wall
       {"suction",
        {program("solve"), "configs/solve/suction_plate.yaml", "-o", "OUT/solution.h5"},
        "solution.h5"},
@@ -264,6 +264,9 @@ int main(int argc, char** argv) {
       {"adhesion",
        {program("solve"), "configs/solve/pull_off.yaml", "--set",
         "mesh.geometry.indented_disc.edge=0.08", "-o", "OUT/solution.h5"},
+       "solution.h5"},
+      {"impact",
+       {program("solve"), "configs/solve/impact.yaml", "-o", "OUT/solution.h5"},
        "solution.h5"},
       {"plan", {program("plan"), "pipelines/indentation_angles.yaml", "-o", "OUT"}, "Makefile"},
       {"make", {"make", "-j2", "-C", "OUT"}, "table/sweep.h5"},
