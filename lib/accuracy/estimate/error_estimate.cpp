@@ -532,8 +532,10 @@ std::string in_words(const ErrorEstimate& e) {
                        e.of.name.starts_with("force") ? "nothing is touched" : "no error");
   if (e.of.value == 0 && !e.largest)
     return fmt::format("{} 0 {} +- {:.2g} {}", e.of.name, e.of.unit, e.total(), e.of.unit);
-  const std::string begins = fmt::format("{}{} {:.4g} {} +- {:.2g} %{}", e.of.name, at, e.of.value,
-                                         e.of.unit, e.in_percent(e.total()), relative);
+  std::string in_unit;
+  if (e.of.unit != unit::none) in_unit = " " + e.of.unit;
+  const std::string begins = fmt::format("{}{} {:.4g}{} +- {:.2g} %{}", e.of.name, at, e.of.value,
+                                         in_unit, e.in_percent(e.total()), relative);
   const double cells = e.in_percent(e.cells);
   const double solver = e.in_percent(e.solver);
   if (!e.has_limit) {
@@ -551,10 +553,11 @@ std::string in_words(const ErrorEstimate& e) {
     append(left_out, ", ", fmt::format("{} {:+.2g}", part.name, e.in_percent(part.value)));
   }
   if (!left_out.empty()) left_out = "; left out: " + left_out + " %";
-  return fmt::format(
-      "{} (cells {:+.2g}, increments {:+.2g}, scatter {:.2g}, solver {:.1g} %{}); limit {:.4g}",
-      begins, cells, e.in_percent(e.increments), e.in_percent(e.scatter), solver, left_out,
-      e.limit());
+  std::string parts =
+      fmt::format("cells {:+.2g}, increments {:+.2g}", cells, e.in_percent(e.increments));
+  if (e.cells_with_increments) parts = fmt::format("cells and increments {:+.2g}", cells);
+  return fmt::format("{} ({}, scatter {:.2g}, solver {:.1g} %{}); limit {:.4g}", begins, parts,
+                     e.in_percent(e.scatter), solver, left_out, e.limit());
 }
 
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {

@@ -95,6 +95,7 @@ struct ErrorEstimate {
   // Three meshes show an order by themselves that is smaller than the theoretical one. Such an
   // order is known less well than one that both agree on: Roache's factor is 1.25 for these.
   bool order_observed = false;
+  bool cells_with_increments = false;  // `cells` is the error of both, found together
   struct Part {
     std::string name;
     double value;

@@ -86,6 +86,7 @@ PathErrors impact_errors(const SolveConfig& config, const std::optional<Material
     ErrorEstimate e{
         {own.name, own.unit, own.value}, own.value - law->limit, 0, law->scatter, 0, law->order};
     e.order_observed = law->order < 2;
+    e.cells_with_increments = true;
     if (law->grows) {  // they show no limit: the largest difference says all that is known
       e.cells = 0;
       e.order = 2;

@@ -121,6 +121,7 @@ void report_results(const Voice& voice, const SolveConfig& config, const Run& ru
   // Without an estimate the numbers themselves; no detail has named them before.
   for (const Valued& one : valued(config, run.scene, run.mesh, last)) {
     if (!one.of_force() || has_estimate(estimates, one.name)) continue;
+    if (any && config.in_motion()) continue;  // the force of an impact has been named
     voice.say("{} {:.5g} {}, no error bar", one.name, one.value, one.unit);
     any = true;
   }

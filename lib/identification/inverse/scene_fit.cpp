@@ -91,7 +91,7 @@ bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
   paths = solved(wanted);
   for (const Path& path : paths)
     if (!path->complete) {
-      failure_ = path->why;
+      effort_.failure = path->why;
       return false;
     }
   return true;
@@ -159,7 +159,7 @@ bool SceneTests::model(const VecX& p, VecX& values) {
     VecX of_test;
     const ForwardPath& path = *paths[test.run];
     if (!read(test, path, path.values, p, Read::values, of_test)) {
-      failure_ = fmt::format("the path of {} ends before what {} measured, at these offsets",
+      effort_.failure = fmt::format("the path of {} ends before what {} measured, at these offsets",
                              config_.data[test.data].solve.path, test.name);
       return false;
     }

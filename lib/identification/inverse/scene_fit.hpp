@@ -71,7 +71,7 @@ class SceneTests : public FurtherTests {
   int runs() const { return effort_.runs; }               // made so far
   double run_seconds() const { return effort_.seconds; }  // of CPU, in them
   // why the scene of a trial set has no end
-  const std::string& last_failure() const { return failure_; }
+  const std::string& last_failure() const { return effort_.failure; }
   // Sentences about tests that were read beyond the end of a path at the offsets of p.
   std::vector<std::string> extrapolations(const VecX& p) const;
   std::vector<FittedCurve> fitted(const VecX& values) const;  // at the values that were found
@@ -158,10 +158,10 @@ class SceneTests : public FurtherTests {
   SceneFitOptions options_;
   struct Effort {
     int runs = 0;
-    double seconds = 0;  // of CPU
+    double seconds = 0;   // of CPU
+    std::string failure;  // why the last run without an end has none
   };
   Effort effort_;
-  std::string failure_;
 };
 
 }  // namespace langer
