@@ -69,9 +69,10 @@ std::string number_words(const Member& m, bool whole) {
 
 // A multiple of 15 degrees in radians, with three digits or more.
 static bool looks_like_radians(double x) {
+  if (std::abs(x) > 6.5) return false;  // more than a full turn
   const double parts = std::abs(x) * 12 / std::numbers::pi;
   const double whole = std::round(parts);
-  return whole >= 1 && whole <= 24 && std::abs(parts - whole) < 6e-4 * whole;
+  return whole >= 1 && std::abs(parts - whole) < 6e-4 * whole;
 }
 
 // Limits for lengths, which are positive, and for positions, both in mm: squares and ratios of
