@@ -160,7 +160,7 @@ bool SceneTests::model(const VecX& p, VecX& values) {
     const ForwardPath& path = *paths[test.run];
     if (!read(test, path, path.values, p, Read::values, of_test)) {
       effort_.failure = fmt::format("the path of {} ends before what {} measured, at these offsets",
-                             config_.data[test.data].solve.path, test.name);
+                                    config_.data[test.data].solve.path, test.name);
       return false;
     }
     const double offset = measured_by(test, SceneNumber::Of::force_offset, p);
