@@ -86,6 +86,17 @@ void change(SolveConfig& config, const std::string& key, double by) {
     if (p.key == rest) *p.value += by;
 }
 
+// The same scene where a number is more by h, and less.
+struct Varied {
+  SolveConfig more, less;
+};
+Varied varied(const SolveConfig& config, const std::string& key, double h) {
+  Varied out{config, config};
+  change(out.more, key, h);
+  change(out.less, key, -h);
+  return out;
+}
+
 double value_of(const SolveConfig& config, const std::string& key) {
   SolveConfig other = config;
   if (const auto value = config_number(config, key);
@@ -150,8 +161,7 @@ void check(const std::string& text, const std::vector<std::string>& keys, double
     const double h = keys[i].ends_with("alpha")         ? 1e-2
                      : keys[i].ends_with("quadratic.d") ? 3e-2 * value
                                                         : 3e-4 * value;
-    SolveConfig more = config, less = config;
-    change(more, keys[i], h), change(less, keys[i], -h);
+    const auto [more, less] = varied(config, keys[i], h);
     const Steps plus = steps_of(more), minus = steps_of(less);
     REQUIRE(plus.size() == found.size());
     std::size_t compared = 0;
@@ -257,8 +267,7 @@ void check_scalar(const std::string& text, const std::string& scalar, const std:
   std::vector<Steps> found;
   const double told = steps_of(config, &found).back().scalars.at(derivative),
                value = value_of(config, key), h = 3e-4 * value;
-  SolveConfig more = config, less = config;
-  change(more, key, h), change(less, key, -h);
+  const auto [more, less] = varied(config, key, h);
   const auto last = [&](const SolveConfig& other) {
     const StepRecord end = steps_of(other).back();
     return scalar == "apex"
@@ -359,10 +368,7 @@ TEST_CASE("derivatives of frequencies are those of whole runs with other numbers
   for (std::size_t i = 0; i < keys.size(); ++i) {
     CAPTURE(keys[i]);
     const double h = keys[i] == "fibres[0].alpha" ? 0.05 : 1e-3 * value_of(config, keys[i]);
-    SolveConfig more = config;
-    SolveConfig less = config;
-    change(more, keys[i], h);
-    change(less, keys[i], -h);
+    const auto [more, less] = varied(config, keys[i], h);
     const std::vector<double> high = modes_of_run(more, false).frequency;
     const std::vector<double> low = modes_of_run(less, false).frequency;
     for (std::size_t mode = 0; mode < found.frequency.size(); ++mode) {
@@ -417,25 +423,20 @@ TEST_CASE("derivatives of peak force and restitution are those of runs") {
     return out;
   };
   const std::map<std::string, double> found = results(config, true);
+  Run run(test::mesh_in(config), config, config.material, test::nowhere);
+  const std::vector<SceneParameter> numbers = Sensitivity(run, config, test::nowhere).parameters();
   for (const std::string& key : keys) {
     CAPTURE(key);
     const double h = 1e-3 * value_of(config, key);
-    SolveConfig more = config;
-    SolveConfig less = config;
-    change(more, key, h);
-    change(less, key, -h);
+    const auto [more, less] = varied(config, key, h);
     const auto high = results(more, false);
     const auto low = results(less, false);
-    std::string number = key;
-    for (char& letter : number) {
-      if (letter == '.' || letter == '[') letter = '_';
-    }
-    std::erase(number, ']');
+    const SceneParameter& number = *std::ranges::find(numbers, key, &SceneParameter::key);
     for (const char* name : {"peak_force", "restitution"}) {
       CAPTURE(name);
       const double difference = (high.at(name) - low.at(name)) / (2 * h);
       const double size = 1e-3 * found.at(name) / value_of(config, key);
-      CHECK(found.at(std::string("d_") + name + "_d_" + number) == near(difference, 1e-3, size));
+      CHECK(found.at(derivative_name(name, number)) == near(difference, 1e-3, size));
     }
   }
 }

@@ -23,7 +23,8 @@ constexpr double resolves_edge =
     0.14;  // with friction; on longer cells what is fitted was a third of the error
 constexpr Lengths of_disc{0.07, 0.0442};  // a line of nodes in contact: nothing averages
 constexpr std::array longer{1.25, 1.5}, hex27_longer{std::numbers::sqrt2, 2.0};
-constexpr std::array cheap{1.4, 1.75};  // for estimate: auto, together about a fifth of the solve
+constexpr std::array cheap{1.4, 1.75};   // for estimate: auto, together about a fifth of the solve
+constexpr std::array fewer_parts{3, 2};  // of a family, whose solved mesh has four
 constexpr std::array longer_impact{1.4, 2.0};  // in space and in time
 constexpr double close_enough =
     1e-5;  // residual, relative to the reactions: errors are asked to two digits
@@ -90,21 +91,31 @@ void add_longer_hex8(Refinements& refined, SolveConfig other, const std::array<d
   }
 }
 
+// The same scene on cells longer by about a factor; returns their length in those of before.
+double lengthen(SolveConfig& config, double factor) {
+  Geometry& geometry = config.mesh->geometry;
+  if (has_edge_in_contact_radii(geometry)) {
+    scale_cells(geometry, factor);
+    return factor;
+  }
+  const double cells = cells_along(geometry);
+  lengthen_cells(geometry, factor);
+  any_symmetry(config);
+  return cells / cells_along(geometry);
+}
+
+// The same on a coarser mesh of a family, whose solved mesh has four parts.
+double coarsen_family(SolveConfig& config, int parts) {
+  family_of(config.mesh->geometry)->parts = parts;
+  any_symmetry(config);
+  return 4.0 / parts;
+}
+
 void add_longer_hex27(Refinements& refined, const SolveConfig& config) {
-  const double cells = cells_along(config.mesh->geometry);
   refined.hex27_length = {1};
   for (double factor : hex27_longer) {
-    SolveConfig other = config;
-    Geometry& geometry = other.mesh->geometry;
-    if (has_edge_in_contact_radii(geometry)) {
-      scale_cells(geometry, factor);
-      refined.hex27_length.push_back(factor);
-    } else {
-      lengthen_cells(geometry, factor);
-      any_symmetry(other);
-      refined.hex27_length.push_back(cells / cells_along(geometry));
-    }
-    refined.hex27.push_back(other);
+    SolveConfig& other = refined.hex27.emplace_back(config);
+    refined.hex27_length.push_back(lengthen(other, factor));
   }
 }
 
@@ -113,14 +124,10 @@ void add_family(Refinements& refined, const SolveConfig& config) {
   const bool quadratic = reference(config.mesh->cells).second_order();
   std::vector<SolveConfig>& scenes = quadratic ? refined.hex27 : refined.hex8;
   std::vector<double>& length = quadratic ? refined.hex27_length : refined.length;
-  constexpr double parts = 4;  // of the solved mesh
   length = {1};
-  for (int fewer : {3, 2}) {
-    SolveConfig other = config;
-    family_of(other.mesh->geometry)->parts = fewer;
-    any_symmetry(other);
-    scenes.push_back(std::move(other));
-    length.push_back(parts / fewer);
+  for (int parts : fewer_parts) {
+    SolveConfig& other = scenes.emplace_back(config);
+    length.push_back(coarsen_family(other, parts));
   }
   refined.own = !quadratic;
 }
@@ -134,19 +141,11 @@ std::vector<LongerScene> longer_in_space_and_time(const SolveConfig& config, con
   for (std::size_t i = 0; i < longer_impact.size(); ++i) {
     LongerScene& longer = out.emplace_back();
     longer.config = config;
-    Geometry& geometry = longer.config.mesh->geometry;
-    longer.length = longer_impact[i];
-    if (auto* family = family_of(geometry)) {
-      const int parts = 3 - static_cast<int>(i);  // of the solved mesh: 4
-      family->parts = parts;
-      longer.length = 4.0 / parts;
-    } else if (has_edge_in_contact_radii(geometry)) {
-      scale_cells(geometry, longer.length);
+    if (family_of(longer.config.mesh->geometry)) {
+      longer.length = coarsen_family(longer.config, fewer_parts[i]);
     } else {
-      lengthen_cells(geometry, longer.length);
-      longer.length = cells_along(config.mesh->geometry) / cells_along(geometry);
+      longer.length = lengthen(longer.config, longer_impact[i]);
     }
-    if (!has_edge_in_contact_radii(geometry)) any_symmetry(longer.config);
     const double before = i == 0 ? 1 : out[i - 1].length;
     if (longer.length < apart * before) throw too_few_cells("", where);
     DynamicsConfig& dynamics = *longer.config.dynamics;

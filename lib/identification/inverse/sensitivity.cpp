@@ -25,6 +25,10 @@ std::vector<Vec3> by_node(const VecX& all) {
   return out;
 }
 
+// What a motion carries on from one increment to the next.
+constexpr std::array motion_fields{velocity_field, acceleration_field, carried_field};
+constexpr std::array motion_of_indenter{indenter_velocity, indenter_acceleration, indenter_carried};
+
 std::string travel_of(const RigidContact& contact) { return "travel_" + contact.name; }
 
 }  // namespace
@@ -378,9 +382,9 @@ void Sensitivity::write(StepRecord& whole) const {
     auto& scalars = whole.scalars;
     for (const auto& [field, values] : d.point_fields)
       whole.point_fields[derivative_name(field, p)] = values;
-    for (const char* of_indenter : {indenter_velocity, indenter_acceleration, indenter_carried})
-      if (has_mass_of_its_own())
-        scalars[derivative_name(of_indenter, p)] = d.scalars.at(of_indenter);
+    if (has_mass_of_its_own())
+      for (const char* name : motion_of_indenter)
+        scalars[derivative_name(name, p)] = d.scalars.at(name);
     scalars[derivative_name("energy_N_mm", p)] = d.scalars.at("energy");
     if (!contacts.empty()) scalars[derivative_name("force_N", p)] = force_derivative(whole, d);
     for (int k = 0; k < 3 && !contacts.empty(); ++k)
@@ -417,11 +421,12 @@ void Sensitivity::kept(const StepRecord& whole) {
   for (const SceneParameter& p : parameters()) {
     StepRecord like = whole;
     like.u = whole.point_fields.at(derivative_name("u", p));
-    for (const char* field : {velocity_field, acceleration_field, carried_field})
-      if (run_.inertia) like.point_fields[field] = whole.point_fields.at(derivative_name(field, p));
-    for (const char* of_indenter : {indenter_velocity, indenter_acceleration, indenter_carried})
-      if (has_mass_of_its_own())
-        like.scalars[of_indenter] = whole.scalars.at(derivative_name(of_indenter, p));
+    if (run_.inertia)
+      for (const char* field : motion_fields)
+        like.point_fields[field] = whole.point_fields.at(derivative_name(field, p));
+    if (has_mass_of_its_own())
+      for (const char* name : motion_of_indenter)
+        like.scalars[name] = whole.scalars.at(derivative_name(name, p));
     StateDerivative& d = d_last_.emplace_back();
     BodyState of_part = run_.reduction.reduced(like);
     d.u = std::move(of_part.u);

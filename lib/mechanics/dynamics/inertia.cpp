@@ -49,6 +49,14 @@ Eigen::SparseMatrix<double> stiffness_at_rest(const Assembler& body) {
   return K;
 }
 
+// The averaged acceleration b1 of generalised_alpha after an increment of h seconds that moved by
+// `moved`, from the velocity and the averaged acceleration before. T: VecX, or the double of a
+// travel.
+template <class T>
+T averaged_acceleration(double h, double beta, const T& moved, const T& v, const T& b) {
+  return (moved - h * v) / (beta * h * h) - (0.5 - beta) / beta * b;
+}
+
 }  // namespace
 
 Inertia::Inertia(const Assembler& body, InertiaOptions options)
@@ -195,8 +203,7 @@ double Inertia::predicted_travel() const {
 VecX Inertia::acceleration_of(const VecX& moved, const MotionState& start) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
-                      (0.5 - step_.beta) / step_.beta * start.b;
+      const VecX b1 = averaged_acceleration<VecX>(step_.h, step_.beta, moved, start.v, start.b);
       return ((1 - step_.am) * b1 + step_.am * start.b - step_.af * start.a) / (1 - step_.af);
     }
     case Scheme::energy_momentum:
@@ -211,8 +218,7 @@ VecX Inertia::acceleration_of(const VecX& moved, const MotionState& start) const
 VecX Inertia::velocity_of(const VecX& moved, const MotionState& start) const {
   switch (options_.scheme) {
     case Scheme::generalised_alpha: {
-      const VecX b1 = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
-                      (0.5 - step_.beta) / step_.beta * start.b;
+      const VecX b1 = averaged_acceleration<VecX>(step_.h, step_.beta, moved, start.v, start.b);
       return start.v + step_.h * ((1 - step_.gamma) * start.b + step_.gamma * b1);
     }
     case Scheme::energy_momentum:
@@ -225,8 +231,8 @@ VecX Inertia::velocity_of(const VecX& moved, const MotionState& start) const {
 
 // Of an indenter with mass, by generalised_alpha.
 double Inertia::travel_acceleration_of(double moved, const MotionState& start) const {
-  const double b1 = (moved - step_.h * start.travel_v) / (step_.beta * step_.h * step_.h) -
-                    (0.5 - step_.beta) / step_.beta * start.travel_b;
+  const double b1 =
+      averaged_acceleration(step_.h, step_.beta, moved, start.travel_v, start.travel_b);
   return ((1 - step_.am) * b1 + step_.am * start.travel_b - step_.af * start.travel_a) /
          (1 - step_.af);
 }
@@ -266,12 +272,11 @@ VecX Inertia::end_of(const VecX& u) const {
 MotionState Inertia::end_of_move(const VecX& moved, double travelled,
                                  const MotionState& start) const {
   MotionState end;
-  end.b = (moved - step_.h * start.v) / (step_.beta * step_.h * step_.h) -
-          (0.5 - step_.beta) / step_.beta * start.b;
+  end.b = averaged_acceleration<VecX>(step_.h, step_.beta, moved, start.v, start.b);
   end.a = acceleration_of(moved, start);
   end.v = velocity_of(moved, start);
-  end.travel_b = (travelled - step_.h * start.travel_v) / (step_.beta * step_.h * step_.h) -
-                 (0.5 - step_.beta) / step_.beta * start.travel_b;
+  end.travel_b =
+      averaged_acceleration(step_.h, step_.beta, travelled, start.travel_v, start.travel_b);
   end.travel_a = travel_acceleration_of(travelled, start);
   end.travel_v =
       start.travel_v + step_.h * ((1 - step_.gamma) * start.travel_b + step_.gamma * end.travel_b);

@@ -41,6 +41,7 @@ void add_derivatives_of(const StepRecord& step, std::map<std::string, double>& f
                         std::map<std::string, double>& speed) {
   const double size = step.force_ind.norm();
   for (const auto& [name, value] : step.scalars) {
+    if (!name.starts_with("d_")) continue;
     for (int k = 0; k < 3 && size > 0; ++k) {
       const std::string component = std::string("d_force_") + "xyz"[k] + "_N_d_";
       const std::string number = after(name, component);
