@@ -1,5 +1,5 @@
 # The man pages of a program and of its commands, by help2man from what the program says of itself:
-#   cmake -DHELP2MAN=help2man -DPROGRAM=bin/langer-solve -DLANGER=bin/langer -DVERSION=0.3.0 -DFOLDER=pages/man1 -P cmake/man_pages.cmake
+#   cmake -DHELP2MAN=help2man -DPROGRAM=bin/langer-solve -DLANGER=bin/langer -DVERSION=0.4.0 -DFOLDER=pages/man1 -P cmake/man_pages.cmake
 #
 # help2man reads --help. Its table of keys is cut to the width of a terminal, so a page leaves it out and has a section CONFIG instead
 # with all keys, as `langer describe` prints them. The commands of `langer` have pages of their own: `man langer-show`.

@@ -108,7 +108,8 @@ double resisting(const StepRecord& step) {
 
 // A force or torque with its error bar, if an estimate is available.
 std::string with_error(double value, const std::string& unit, const KnownError& error) {
-  const std::string text = rounded(value, error.percent) + "\u00a0" + unit;
+  std::string text = rounded(value, error.percent);
+  if (!unit.empty()) text += "\u00a0" + unit;
   if (!std::isfinite(error.percent)) return text;
   return fmt::format("{} ± {:.2g}\u00a0%", text, error.percent);
 }
@@ -224,6 +225,65 @@ void describe_twist(Answer& answer, const SolutionReader& solution, const Tree& 
   answer.sentence = fmt::format("A body of {}, turned by {:.4g}° at {}: torque {}",
                                 size_of(solution.header().mesh), last.scalars.at("angle_" + name),
                                 name, with_error(torque, "N\u00a0mm", error));
+  add_contact_facts(answer, config.find("contacts"));
+}
+
+// A result of an impact with its error bar, such as "restitution 0.98 ± 3.2 %"; empty if the path
+// ended before the result was known.
+std::string impact_words(const std::vector<Summary>& summary, const std::string& name,
+                         const std::string& words) {
+  const auto found = std::ranges::find(summary, name, &Summary::name);
+  if (found == summary.end()) return "";
+  const KnownError error = known_error(summary, name, found->value);
+  if (found->unit == "s") return words + " " + with_error(1000 * found->value, "ms", error);
+  if (found->unit == "-") return words + " " + with_error(found->value, "", error);
+  return words + " " + with_error(found->value, found->unit, error);
+}
+
+// What hits, and what is hit: an indenter with a mass hits the body, or the body hits an indenter
+// at rest, or bodies hit each other. Empty for an indenter that is moved.
+std::string impact_of(const Mesh& mesh, const Tree& contact) {
+  const std::string body = size_of(mesh);
+  const Tree* against = contact.find("against");
+  if (against && !against->scalar.empty()) return "Bodies within " + body + " that meet";
+  const std::string indenter = shape_words(contact.find("rigid"));
+  const Tree* free = contact.find("free");
+  if (free && free->kind == Tree::Kind::map) {
+    const Tree* mass = free->find("mass_g");
+    std::string text = indenter + " hits a body of " + body;
+    if (mass) text = indenter + " and " + flat(*mass) + " g hits a body of " + body;
+    text[0] = 'A';
+    return text;
+  }
+  if (const Tree* motion = contact.find("motion"))
+    for (const Tree& point : motion->list)
+      if (const Tree* to = point.find("to"))
+        for (const Tree& component : to->list)
+          if (flat(component) != "0") return "";
+  return fmt::format("A body of {} hits {}", body, indenter);
+}
+
+// The sentence of an impact, from its results. Empty if the solution is none.
+std::string impact_sentence(const SolutionReader& solution, const Tree& config) {
+  const Tree* dynamics = config.find("dynamics");
+  const Tree* contacts = config.find("contacts");
+  if (!dynamics || dynamics->kind != Tree::Kind::map) return "";
+  if (!contacts || contacts->map.size() != 1) return "";
+  const std::vector<Summary> summary = solution.summary();
+  std::string text = impact_of(solution.header().mesh, contacts->map[0].value);
+  const std::string force = impact_words(summary, "peak_force", "peak force");
+  if (text.empty() || force.empty()) return "";
+  text += ": " + force;
+  for (const auto& [name, words] :
+       {std::pair{"contact_time", "in contact for"}, std::pair{"restitution", "restitution"}}) {
+    const std::string result = impact_words(summary, name, words);
+    if (!result.empty()) text += ", " + result;
+  }
+  return text;
+}
+
+void describe_impact(Answer& answer, const std::string& sentence, const Tree& config) {
+  answer.sentence = sentence;
   add_contact_facts(answer, config.find("contacts"));
 }
 
@@ -409,6 +469,8 @@ Answer answer_of(const SolutionReader& solution, const std::string& label) {
     describe_suction(answer, solution, config, pressure);
   else if (const std::string turned = turned_name(last); !turned.empty())
     describe_twist(answer, solution, config, turned);
+  else if (const std::string impact = impact_sentence(solution, config); !impact.empty())
+    describe_impact(answer, impact, config);
   else if (header.contact_nodes.empty())
     describe_loads(answer, solution, config);
   else

@@ -112,8 +112,10 @@ void judge_errors(const AddVerdict& add, const std::vector<Summary>& summary, do
     const auto [value, percent] = known_error(summary, name, fallback);
     if (!std::isfinite(value) || value == 0) continue;
     any = true;
-    const std::string text = fmt::format("{} {} {} ± {:.2g} % by mesh and increments", name,
-                                         rounded(value, percent), s.unit, percent);
+    std::string number = rounded(value, percent);
+    if (s.unit != "-") number += " " + s.unit;
+    const std::string text =
+        fmt::format("{} {} ± {:.2g} % by mesh and increments", name, number, percent);
     if (name != "force")
       add(Level::note, text);
     else if (percent <= wanted)
@@ -184,7 +186,9 @@ std::string stability_words(const History& history) {
 // Stability of the structure (negative eigenvalues of the constrained tangent) and of the material
 // (strong ellipticity).
 void judge_stability(const AddVerdict& add, const History& history) {
-  if (history.count("negative_eigenvalues") == 0)
+  if (history.count("kinetic_energy"))
+    add(Level::note, "no step is judged as stable or not: a body in motion has no equilibrium");
+  else if (history.count("negative_eigenvalues") == 0)
     add(Level::note,
         "the stability of the steps was not checked (stability: last or off, or an "
         "iterative solver)");

@@ -1,6 +1,7 @@
 // Motion without contact: tangents, orders of convergence, conservation.
 #include <doctest/doctest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "dynamics/moving.hpp"
@@ -113,5 +114,76 @@ TEST_CASE("a body falls by g t^2 / 2, whatever the scheme") {
     CHECK(u[0] == near(1, 1e-9));
     CHECK(u[1] == near(-0.5 * 9810 * 1e-4, 1e-9));
     CHECK(std::abs(block.motion().balance) < 1e-9 * block.energy());
+  }
+}
+
+namespace {
+
+// Free rows of the stiffness at rest, or of the mass.
+struct LinearBody {
+  MatX K, M;
+};
+
+LinearBody linear(const Mesh& mesh, const Material& material, const Dofs& dofs, double density) {
+  const std::vector<Material> materials(mesh.bodies.size(), material);
+  Assembler body(mesh, materials, test::directions(mesh, materials), Formulation::mean_dilatation,
+                 dofs, 1, Kernel::packets);
+  const VecX rest = VecX::Zero(dofs.n);
+  body.pressures_from(rest);
+  REQUIRE(body.assemble(rest, true));
+  const MatX all = make_mass(body.model(), {density}, MassKind::consistent, {}).M;
+  const int n = dofs.n_free();
+  LinearBody out{MatX(n, n), MatX(n, n)};
+  for (int j = 0; j < n; ++j) {
+    out.K.col(j) = body.K_times(VecX::Unit(n, j));
+    for (int i = 0; i < n; ++i) out.M(i, j) = all(dofs.free[i], dofs.free[j]);
+  }
+  return out;
+}
+
+}  // namespace
+
+// In each mode q'' + (c_m + c_k w^2) q' + w^2 q = 0.
+TEST_CASE("a small vibration under Rayleigh damping decays as its modes do") {
+  const Mesh mesh = test::cube(1);
+  const Material material = test::neo_hooke(0.1, 0.5);
+  const Dofs dofs = clamped(mesh, "y_min");
+  const LinearBody body = linear(mesh, material, dofs, 1e-9);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> modes(body.K, body.M);
+  const Vec3 velocity(1, 0.3, -0.4);  // mm/s
+  VecX start(dofs.n_free());
+  for (int row = 0; row < dofs.n_free(); ++row) start[row] = velocity[dofs.free[row] % 3];
+  const double time = 3e-4;
+  const int n_steps = 1200;
+  struct Damping {
+    double mass, stiffness;
+  };
+  for (const Damping damping : {Damping{2000, 0}, Damping{0, 2e-6}, Damping{2000, 2e-6}}) {
+    CAPTURE(damping.mass);
+    CAPTURE(damping.stiffness);
+    InertiaOptions options = of_scheme(Scheme::generalised_alpha);
+    options.velocity = velocity;
+    options.damping_mass = damping.mass;
+    options.damping_stiffness = damping.stiffness;
+    test::Moving moving(mesh, material, dofs, options, {}, time / n_steps, n_steps);
+    const double kinetic = moving.motion().kinetic;
+    for (int i = 0; i < n_steps; ++i) moving.step();
+
+    VecX exact = VecX::Zero(dofs.n_free());
+    for (int k = 0; k < dofs.n_free(); ++k) {
+      const double squared = modes.eigenvalues()[k];
+      const double decay = 0.5 * (damping.mass + damping.stiffness * squared);
+      const double damped = std::sqrt(squared - decay * decay);
+      const VecX mode = modes.eigenvectors().col(k);
+      const double speed = mode.dot(body.M * start);
+      exact += mode * speed / damped * std::exp(-decay * time) * std::sin(damped * time);
+    }
+    VecX found(dofs.n_free());
+    for (int row = 0; row < dofs.n_free(); ++row) {
+      found[row] = moving.statics().accepted().u[dofs.free[row]];
+    }
+    CHECK((found - exact).norm() < 1e-3 * exact.norm());
+    CHECK(moving.energy() < 0.9 * kinetic);
+    CHECK(std::abs(moving.motion().balance) < 1e-5 * kinetic);
   }
 }

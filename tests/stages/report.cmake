@@ -39,6 +39,19 @@ string(FIND "${text}" "area of contact" area)
 if(area EQUAL -1)
   message(FATAL_ERROR "the page of two bodies has no area of contact")
 endif()
+
+# an impact is described by its results, and no equilibrium of it is judged
+run(0 ${BIN}/langer-solve configs/solve/ballistometer.yaml --set path.seconds=0.014 -o bounce.h5 --quiet)
+run(0 ${BIN}/langer-report runs/smoke/report/report.yaml --solution bounce.h5 -o bounce.html)
+file(READ ${WORK}/project/bounce.html text)
+foreach(words
+    "A sphere of radius 2.5 mm and 2 g hits a body of revolution, 16 mm in radius and 8 mm high: peak force 0.2"
+    "N ± " "in contact for " "ms ± " "restitution 0." "a body in motion has no equilibrium")
+  string(FIND "${text}" "${words}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "the page of a bounce has no words \"${words}\"")
+  endif()
+endforeach()
 file(READ ${page} text)
 
 find_program(CHROMIUM NAMES chromium chromium-browser google-chrome)

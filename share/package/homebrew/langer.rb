@@ -2,7 +2,7 @@
 class Langer < Formula
   desc "Mechanics of skin and other fibrous soft tissue"
   homepage "https://example.org/langer"
-  url "https://example.org/langer/archive/v0.3.0.tar.gz"
+  url "https://example.org/langer/archive/v0.4.0.tar.gz"
   sha256 "0000000000000000000000000000000000000000000000000000000000000000"
   license "MIT"
 

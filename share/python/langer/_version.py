@@ -1,1 +1,1 @@
-version = "0.3.0"  # that of CMakeLists.txt
+version = "0.4.0"  # that of CMakeLists.txt
