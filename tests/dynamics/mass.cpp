@@ -7,8 +7,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/tensor/dense.hpp"
+#include "mechanics/dynamics/inertia.hpp"
 #include "mechanics/mesh/cut.hpp"
 #include "mechanics/mesh/section.hpp"
 #include "support/block.hpp"
@@ -65,6 +67,45 @@ TEST_CASE("a box has the mass and the moments of inertia of its density, of all 
                             spin[2] * spin[2] * (4 + 9));
     CHECK(twice([&](const Vec3& X) { return Vec3(spin.cross(X - middle)); }) ==
           near(inertia, 1e-12));
+  }
+}
+
+TEST_CASE("a box that flies and turns has the momentum m v and the angular momentum of its spin") {
+  const double m = rho * 2 * 3 * 1.5;
+  const Vec3 middle(1, 1.5, 0.75);
+  const Vec3 velocity(30, -20, 5);
+  const Vec3 spin(0.2, -0.5, 0.3);
+  const Vec3 inertia = m / 12 * Vec3(9 + 2.25, 4 + 2.25, 4 + 9);
+  const Vec3 angular = m * middle.cross(velocity) + inertia.cwiseProduct(spin);
+  for (CellType type : {CellType::hex8, CellType::hex27, CellType::tet15}) {
+    const Mesh mesh = box(type);
+    const Assembler body = body_of(mesh, number_dofs(mesh.n_nodes(), {}).dofs);
+    const VecX u = VecX::Zero(3 * mesh.n_nodes());
+    InertiaOptions all;
+    all.density = {rho};
+    all.velocity = velocity;
+    all.spin = spin;
+    all.spin_centre = middle;
+    const Inertia whole(body, all);
+    MotionState motion = whole.at_start();
+    CHECK(whole.momentum(motion).isApprox(m * velocity, 1e-12));
+    CHECK(whole.angular_momentum(u, motion).isApprox(angular, 1e-12));
+    const double energy = 0.5 * (m * velocity.squaredNorm() + spin.dot(inertia.cwiseProduct(spin)));
+    CHECK(motion.kinetic == near(energy, 1e-12));
+
+    // The same as a body that moves on its own.
+    MovingBody moving{"box", std::vector<int>(static_cast<std::size_t>(mesh.n_nodes()))};
+    std::iota(moving.nodes.begin(), moving.nodes.end(), 0);
+    moving.velocity = velocity;
+    moving.spin = spin;
+    moving.spin_centre = middle;
+    InertiaOptions own;
+    own.density = {rho};
+    own.bodies = {moving};
+    const Inertia one(body, own);
+    CHECK(one.at_start().v.isApprox(motion.v, 1e-14));
+    CHECK(one.momentum(motion, moving).isApprox(m * velocity, 1e-12));
+    CHECK(one.mass_of(moving) == near(m, 1e-12));
   }
 }
 
@@ -132,6 +173,21 @@ TEST_CASE("a section weighs what its whole circle does, and widens with its kine
     const double falling =
         twice_kinetic_energy(mesh, dofs, mass, [](const Vec3&) { return Vec3(0, 3, 0); });
     CHECK(falling == near(9 * mass.total, 1e-12));
+
+    // What a whole circle has of momentum is along its axis.
+    InertiaOptions options;
+    options.density = {rho};
+    options.velocity = Vec3(0, 3, 0);
+    const Inertia inertia(body, options);
+    MotionState motion = inertia.at_start();
+    for (int i = 0; i < mesh.n_nodes(); ++i) {
+      if (dofs.node(i) == i) motion.v[3 * i] = mesh.X[static_cast<std::size_t>(i)][0];
+    }
+    const Vec3 momentum = inertia.momentum(motion);
+    CHECK(momentum[0] == 0);
+    CHECK(momentum[1] == near(3 * mass.total, 1e-12));
+    CHECK(momentum[2] == 0);
+    CHECK(inertia.angular_momentum(VecX::Zero(dofs.n), motion).isZero(0));
   }
 }
 

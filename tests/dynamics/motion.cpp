@@ -26,6 +26,13 @@ InertiaOptions of_scheme(Scheme scheme) {
   return options;
 }
 
+// With Rayleigh damping, both parts of which matter.
+InertiaOptions damped(InertiaOptions options) {
+  options.damping_mass = 2000;
+  options.damping_stiffness = 2e-6;
+  return options;
+}
+
 // Where the end of a cantilever is that begins to move across.
 Vec3 end_of_beam(InertiaOptions options, int n_steps) {
   const Mesh mesh = test::block(test::even(0, 4, 4), {0, 1}, {0, 1});
@@ -101,6 +108,39 @@ TEST_CASE(
   CHECK(order_of(theta) == near(2, 0.1));
 }
 
+TEST_CASE("Rayleigh damping leaves each scheme its order") {
+  CHECK(order_of(damped(of_scheme(Scheme::generalised_alpha))) == near(2, 0.1));
+  CHECK(order_of(damped(of_scheme(Scheme::energy_momentum))) == near(2, 0.1));
+  CHECK(order_of(damped(of_scheme(Scheme::theta))) == near(2, 0.1));
+}
+
+// The speed of its base is that at which the body begins to move.
+TEST_CASE("a body whose base is moved at its own speed is not strained") {
+  const Mesh mesh = test::cube(2);
+  const Vec3 velocity(120, -40, 300);
+  const double step = 1e-4;
+  const int n_steps = 8;
+  std::vector<Prescribed> held;
+  for (int node : mesh.node_sets.at("y_min")) {
+    for (int k = 0; k < 3; ++k) held.push_back({3 * node + k, velocity[k] * step * n_steps});
+  }
+  const Dofs dofs = number_dofs(mesh.n_nodes(), held).dofs;
+  for (Scheme scheme : {Scheme::generalised_alpha, Scheme::theta}) {
+    InertiaOptions options = of_scheme(scheme);
+    options.velocity = velocity;
+    test::Moving moving(mesh, test::neo_hooke(0.1, 0.5), dofs, options, {}, step, n_steps);
+    for (int i = 1; i <= n_steps; ++i) {
+      moving.step();
+      const VecX& u = moving.statics().accepted().u;
+      for (int node = 0; node < mesh.n_nodes(); ++node) {
+        const Vec3 off = u.segment<3>(3 * node) - i * step * velocity;
+        CHECK(off.norm() < 1e-9 * i * step * velocity.norm());
+      }
+    }
+    CHECK(moving.motion().stored < 1e-12 * moving.motion().kinetic);
+  }
+}
+
 TEST_CASE("a body falls by g t^2 / 2, whatever the scheme") {
   const Mesh mesh = test::cube(1);
   for (Scheme scheme : {Scheme::generalised_alpha, Scheme::energy_momentum, Scheme::theta}) {
@@ -155,13 +195,17 @@ TEST_CASE("a small vibration under Rayleigh damping decays as its modes do") {
   for (int row = 0; row < dofs.n_free(); ++row) start[row] = velocity[dofs.free[row] % 3];
   const double time = 3e-4;
   const int n_steps = 1200;
-  struct Damping {
+  struct Case {
+    Scheme scheme;
     double mass, stiffness;
   };
-  for (const Damping damping : {Damping{2000, 0}, Damping{0, 2e-6}, Damping{2000, 2e-6}}) {
+  for (const Case& damping :
+       {Case{Scheme::generalised_alpha, 2000, 0}, Case{Scheme::generalised_alpha, 0, 2e-6},
+        Case{Scheme::generalised_alpha, 2000, 2e-6}, Case{Scheme::energy_momentum, 2000, 2e-6},
+        Case{Scheme::theta, 2000, 2e-6}}) {
     CAPTURE(damping.mass);
     CAPTURE(damping.stiffness);
-    InertiaOptions options = of_scheme(Scheme::generalised_alpha);
+    InertiaOptions options = of_scheme(damping.scheme);
     options.velocity = velocity;
     options.damping_mass = damping.mass;
     options.damping_stiffness = damping.stiffness;
