@@ -162,9 +162,11 @@ void judge_equilibrium(const AddVerdict& add, const History& history) {
       residual = std::max(residual, r);
     }
   }
-  std::string words = fmt::format(
-      "equilibrium in all {} steps: largest relative residual {:.1e}, at most {:g} iterations",
-      history.at("t").size(), residual, largest(history, "iterations"));
+  std::string words = "equilibrium";
+  if (history.count("kinetic_energy")) words = "balance of momentum";
+  words +=
+      fmt::format(" in all {} steps: largest relative residual {:.1e}, at most {:g} iterations",
+                  history.at("t").size(), residual, largest(history, "iterations"));
   if (at_rest > 0) words += fmt::format("; no force acts in {} of them", at_rest);
   add(Level::good, std::move(words));
 }

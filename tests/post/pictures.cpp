@@ -169,6 +169,48 @@ TEST_CASE(
   CHECK(patches() < whole);
 }
 
+// The plate is solid, so its profile is filled. What is on the other side of the axis is not shown.
+TEST_CASE("a plate with a hole is drawn as its profile where the body is a section") {
+  Mesh mesh = test::cube(3);
+  mesh.section = Section{SectionOf::axisymmetric};
+  const auto profiles = [](const Drawing& drawing) {
+    std::vector<Patch> found;
+    for (const Patch& p : test::marks_of<Patch>(drawing)) {
+      if (p.corners.size() > 5 && lightness(p.fill) > 80) found.push_back(p);
+    }
+    return found;
+  };
+  const auto ends = [](const Patch& patch, int k) {
+    std::array<double, 2> out{1e9, -1e9};
+    for (const PagePoint& c : patch.corners) {
+      out[0] = std::min(out[0], c[k]);
+      out[1] = std::max(out[1], c[k]);
+    }
+    return out;
+  };
+  RenderScene scene = scene_of(mesh);
+  CHECK(profiles(render(scene, {})).empty());
+  for (const Aperture& plate :
+       {Aperture{0.5, 0.1, {0, 1, 0}}, Aperture{0.5, 0.1, {0, 0, 0}, {0, -1, 0}}}) {
+    scene.indenters = {outline(plate, {Vec3(0.5, 0.5, 0), 2})};
+    const Drawing drawing = render(scene, {});
+    const std::vector<Patch> filled = profiles(drawing);
+    REQUIRE(filled.size() == 1);
+    // the hole of 0.5 mm, the plate as far as 1 mm, a wall of 1.1 mm
+    const auto x = ends(filled[0], 0);
+    const auto y = ends(filled[0], 1);
+    CHECK((y[1] - y[0]) / (x[1] - x[0]) == near(1.1 / 0.5, 1e-6));
+    double left = 1e9;
+    for (const Patch& p : test::marks_of<Patch>(drawing)) left = std::min(left, ends(p, 0)[0]);
+    CHECK(x[0] - left == near(x[1] - x[0], 1e-6));
+  }
+  // in a body of three dimensions the whole wall stays
+  mesh.section = std::nullopt;
+  RenderScene body = scene_of(mesh);
+  body.indenters = scene.indenters;
+  CHECK(profiles(render(body, {})).empty());
+}
+
 TEST_CASE("every indenter is drawn, of whatever shape, the first and the fifth") {
   const Mesh mesh = test::cube(2);
   RenderScene scene = scene_of(mesh);
