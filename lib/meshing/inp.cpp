@@ -8,7 +8,9 @@
 #include <set>
 #include <sstream>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/base/input_file.hpp"
@@ -95,6 +97,7 @@ class Builder {
     turn_reversed_cells();
     refuse_folded_cells();
     add_bodies();
+    add_frames();
     add_surfaces();
     add_face_elements();
     add_node_sets();
@@ -318,6 +321,109 @@ class Builder {
     }
   }
 
+  // ---- directions
+
+  // Orientations of sections give their elements a frame. They are optional in a mesh: where one
+  // cannot be used, no element gets a frame, and a note says why.
+  void add_frames() {
+    std::vector<Mat3> frames(origin_.size(), Mat3::Identity());
+    std::size_t n_oriented = 0;
+    for (const Placed& one : placed_) {
+      for (const auto& [set, name] : one.scope->oriented) {
+        const auto found = find_orientation(one, name);
+        if (!found) {
+          notes_.push_back(fmt::format("left out: there is no *ORIENTATION {}", name));
+          return;
+        }
+        const std::vector<int> cells =
+            members(one, one.scope->element_sets.at(set), &Placed::cell_at);
+        for (int cell : cells) {
+          const auto frame = frame_of(*found, middle_of(cell));
+          if (!frame) {
+            notes_.push_back(
+                fmt::format("left out: *ORIENTATION {}, {}", found->name, fault_of(*found)));
+            return;
+          }
+          frames[static_cast<std::size_t>(cell)] = *frame;
+        }
+        n_oriented += cells.size();
+      }
+    }
+    if (n_oriented == 0) return;
+    mesh_.frames = std::move(frames);
+    notes_.push_back(fmt::format(
+        "{} of {} elements have an *ORIENTATION, in which `frames: file` measures angles",
+        n_oriented, mesh_.n_cells()));
+  }
+
+  // An orientation of the section's own scope has moved with its instance.
+  std::optional<InpOrientation> find_orientation(const Placed& one, const std::string& name) const {
+    const std::string key = upper_case(name);
+    const auto own = one.scope->orientations.find(key);
+    if (own != one.scope->orientations.end()) {
+      InpOrientation moved = own->second;
+      if (one.instance) {
+        for (Vec3* x : {&moved.a, &moved.b, &moved.c}) *x = one.instance->moved(*x);
+      }
+      return moved;
+    }
+    const auto common = model_.scope.orientations.find(key);
+    if (common != model_.scope.orientations.end()) return common->second;
+    return std::nullopt;
+  }
+
+  Vec3 middle_of(int cell) const {
+    const int n = mesh_.cell().n_nodes;
+    Vec3 sum = Vec3::Zero();
+    for (int a = 0; a < n; ++a) {
+      const int node = mesh_.connectivity[static_cast<std::size_t>(n * cell + a)];
+      sum += mesh_.X[static_cast<std::size_t>(node)];
+    }
+    return sum / n;
+  }
+
+  static std::string fault_of(const InpOrientation& orientation) {
+    if (!orientation.fault.empty()) return orientation.fault;
+    return "whose points give no directions";
+  }
+
+  // Axes 1, 2, 3 of the orientation at a place. Angles run from axis 1 to axis 2, ours from e_x to
+  // e_z: e_x = 1, e_z = 2, and e_y = -3 is normal to both.
+  static std::optional<Mat3> frame_of(const InpOrientation& orientation, const Vec3& place) {
+    if (!orientation.fault.empty()) return std::nullopt;
+    Vec3 first, third;
+    if (orientation.cylindrical) {
+      third = orientation.b - orientation.a;
+      if (!(third.norm() > 0)) return std::nullopt;
+      const Vec3 axis = third.normalized();
+      const Vec3 arm = place - orientation.a;
+      first = arm - arm.dot(axis) * axis;
+    } else {
+      first = orientation.a - orientation.c;
+      const Vec3 second = orientation.b - orientation.c;
+      third = first.cross(second);
+      if (!(third.norm() > 1e-12 * first.norm() * second.norm())) return std::nullopt;
+    }
+    // A difference that is rounding gives no direction.
+    const double size = orientation.a.norm() + orientation.c.norm();
+    if (!(first.norm() > 1e-12 * size)) return std::nullopt;
+    Mat3 axes;
+    axes.col(0) = first.normalized();
+    axes.col(2) = third.normalized();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    if (orientation.about > 0) {
+      const Vec3 axis = axes.col(orientation.about - 1);
+      axes = Eigen::AngleAxisd(orientation.angle, axis).toRotationMatrix() * axes;
+    }
+    Mat3 frame;
+    frame.col(0) = axes.col(0);
+    frame.col(1) = -axes.col(2);
+    frame.col(2) = axes.col(1);
+    return frame;
+  }
+
+  // ---- elements without a body
+
   // Cells without a body form one body without a name; those of several instances form one body for
   // each instance, named after it.
   void name_cells_without_body() {
@@ -517,9 +623,13 @@ class Builder {
       notes_.push_back(
           fmt::format("left out, as they are no bodies: element sets {}", fmt::join(others, ", ")));
     }
-    if (!model_.left_out.empty()) {
-      notes_.push_back(
-          fmt::format("left out, as they are no mesh: {}", fmt::join(model_.left_out, ", ")));
+    std::set<std::string> left_out = model_.left_out;
+    for (const Placed& one : placed_) {
+      const InpScope& scope = *one.scope;
+      if (scope.oriented.empty() && !scope.orientations.empty()) left_out.insert("*ORIENTATION");
+    }
+    if (!left_out.empty()) {
+      notes_.push_back(fmt::format("left out, as they are no mesh: {}", fmt::join(left_out, ", ")));
     }
   }
 };

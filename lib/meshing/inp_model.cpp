@@ -109,12 +109,36 @@ class ModelReader {
     } else if (word == "SURFACE") {
       begin_surface();
     } else if (word == "SOLID SECTION") {
-      add_once(scope().sections, upper_case(card.value("ELSET")));
+      begin_section();
+    } else if (word == "ORIENTATION") {
+      begin_orientation();
     } else if (word != "NODE") {
       static const std::set<std::string> without_content{"HEADING", "ASSEMBLY", "END ASSEMBLY",
                                                          "PREPRINT"};
       if (!without_content.count(word)) model_.left_out.insert("*" + word);
     }
+  }
+
+  void begin_section() {
+    const std::string set = upper_case(card_.value("ELSET"));
+    add_once(scope().sections, set);
+    const std::string orientation = card_.value("ORIENTATION");
+    if (!orientation.empty()) scope().oriented[set] = orientation;
+  }
+
+  // What is not understood here is no error: only `frames: file` needs it.
+  void begin_orientation() {
+    InpOrientation orientation;
+    orientation.name = card_.value("NAME");
+    const std::string system = upper_case(card_.value("SYSTEM"));
+    const std::string definition = upper_case(card_.value("DEFINITION"));
+    orientation.cylindrical = system == "CYLINDRICAL";
+    if (!system.empty() && system != "RECTANGULAR" && system != "CYLINDRICAL") {
+      orientation.fault = "SYSTEM=" + system;
+    } else if (!definition.empty() && definition != "COORDINATES") {
+      orientation.fault = "DEFINITION=" + definition;
+    }
+    scope().orientations[upper_case(orientation.name)] = orientation;
   }
 
   void begin_part() {
@@ -232,6 +256,8 @@ class ModelReader {
       read_members(line, line.cells, &InpScope::element_sets, card_.value("ELSET"));
     } else if (word == "SURFACE") {
       read_surface(line);
+    } else if (word == "ORIENTATION") {
+      read_orientation(line);
     } else if (word == "INSTANCE") {
       read_motion(line);
     }
@@ -402,6 +428,45 @@ class ModelReader {
     scope().surfaces[upper_case(name)].sides.push_back(side);
   }
 
+  // Two or three points, and below them the axis and the angle in degrees of a further rotation.
+  // Lines below these are directions of fibres, which belong to a material.
+  void read_orientation(const InpLine& line) {
+    InpOrientation& orientation = scope().orientations.at(upper_case(card_.value("NAME")));
+    ++orientation.n_lines;
+    if (orientation.n_lines > 2 || !orientation.fault.empty()) return;
+    std::vector<double> numbers;
+    try {
+      for (const std::string& cell : line.cells) numbers.push_back(real_number(cell, line.place));
+    } catch (const Failure&) {
+      orientation.fault = fmt::format("found \"{}\" in line {}", line.text, line.place.line);
+      return;
+    }
+    if (orientation.n_lines == 2) {
+      read_further_rotation(orientation, numbers, line);
+      return;
+    }
+    if (numbers.size() < 6) {
+      orientation.fault = fmt::format("{} numbers in line {}", numbers.size(), line.place.line);
+      return;
+    }
+    numbers.resize(9, 0);
+    orientation.a = {numbers[0], numbers[1], numbers[2]};
+    orientation.b = {numbers[3], numbers[4], numbers[5]};
+    orientation.c = {numbers[6], numbers[7], numbers[8]};
+  }
+
+  static void read_further_rotation(InpOrientation& orientation, const std::vector<double>& numbers,
+                                    const InpLine& line) {
+    if (numbers.empty()) return;
+    const double axis = numbers[0];
+    if (axis != 1 && axis != 2 && axis != 3) {
+      orientation.fault = fmt::format("rotation about axis {:g} in line {}", axis, line.place.line);
+      return;
+    }
+    orientation.about = static_cast<int>(axis);
+    if (numbers.size() > 1) orientation.angle = numbers[1] * std::numbers::pi / 180;
+  }
+
   // Three numbers translate an instance, seven turn it afterwards: two points of the axis, and the
   // angle in degrees, counter-clockwise seen from the second point.
   void read_motion(const InpLine& line) {
@@ -456,6 +521,7 @@ class ModelReader {
 
 std::size_t InpScope::size() const {
   std::size_t n = nodes.size() + cells.size() + faces.size();
+  n += orientations.size() + oriented.size();
   n += members_of(node_sets) + members_of(element_sets);
   for (const auto& [key, surface] : surfaces) n += 1 + surface.sides.size();
   return n;

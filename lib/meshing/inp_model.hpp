@@ -49,14 +49,31 @@ struct InpSurface {
   std::vector<InpSide> sides;
 };
 
+// *ORIENTATION: three directions by points of the file.
+struct InpOrientation {
+  std::string name;
+  bool cylindrical = false;
+  // Rectangular: a is on axis 1, b in the plane of axes 1 and 2, c the origin. Cylindrical: axis 3
+  // runs from a to b, and axis 1 from it outwards.
+  Vec3 a = Vec3::Zero();
+  Vec3 b = Vec3::Zero();
+  Vec3 c = Vec3::Zero();
+  int about = 0;      // axis of a further rotation, from 1; 0: none
+  double angle = 0;   // of it [rad]
+  int n_lines = 0;    // of data so far
+  std::string fault;  // why it cannot be used; empty if it can
+};
+
 struct InpScope {
   std::map<long long, Vec3> nodes;
   std::map<long long, InpElement> cells;  // hexahedra or tetrahedra
   std::map<long long, InpElement> faces;  // corners of plane elements and shells
   InpSets node_sets, element_sets;
   std::map<std::string, InpSurface> surfaces;
-  std::vector<std::string> sections;       // keys of element sets of *SOLID SECTION
-  std::vector<std::string> cells_by_card;  // and of those of *ELEMENT
+  std::vector<std::string> sections;                   // keys of element sets of *SOLID SECTION
+  std::vector<std::string> cells_by_card;              // and of those of *ELEMENT
+  std::map<std::string, InpOrientation> orientations;  // by name in upper case
+  std::map<std::string, std::string> oriented;  // element sets of sections, their ORIENTATION
 
   std::size_t size() const;  // entries of all these
 };

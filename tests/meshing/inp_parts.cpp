@@ -240,6 +240,95 @@ TEST_CASE("an included file stands in the place of its card") {
                      "left out, as they are no mesh: *HYPERELASTIC, *MATERIAL, *ORIENTATION"});
 }
 
+namespace {
+
+// Axes 1, 2, 3 of the orientation of the first element. Angles run from e_x = 1 to e_z = 2.
+Mat3 axes(const Mesh& mesh) {
+  REQUIRE(!mesh.frames.empty());
+  const Mat3& frame = mesh.frames[0];
+  CHECK(std::abs(frame.determinant() - 1) < 1e-12);
+  Mat3 axes;
+  axes << frame.col(0), frame.col(2), -frame.col(1);
+  return axes;
+}
+
+std::string oriented(const std::string& parameters, const std::string& lines) {
+  return cube() + "*Elset, elset=all\n1\n*Orientation, name=o" + parameters + "\n" + lines +
+         "*Solid Section, elset=all, material=m, orientation=O\n1.,\n";
+}
+
+}  // namespace
+
+TEST_CASE("an *ORIENTATION of a section gives its elements a frame") {
+  std::vector<std::string> notes;
+  CHECK(axes(read(oriented("", "1, 0, 0, 0, 1, 0\n"), notes)).isApprox(Mat3::Identity(), 1e-14));
+  CHECK(notes ==
+        std::vector<std::string>{
+            "1 of 1 elements have an *ORIENTATION, in which `frames: file` measures angles"});
+  // b only needs to be in the plane of axes 1 and 2, and c is the origin of both
+  Mat3 expected;
+  expected << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  CHECK(
+      axes(read(oriented(", system=rectangular", "0, 3, 0, 0, 7, 2\n"))).isApprox(expected, 1e-14));
+  CHECK(axes(read(oriented("", "5, 9, 5, 5, 13, 7, 5, 6, 5\n"))).isApprox(expected, 1e-14));
+  // a further rotation: by 90 degrees about axis 3, 1 becomes what 2 was
+  const Mat3 turned = axes(read(oriented("", "1, 0, 0, 0, 1, 0\n3, 90.\n")));
+  CHECK(near(turned.col(0), Vec3::UnitY()));
+  CHECK(near(turned.col(1), -Vec3::UnitX()));
+  CHECK(near(turned.col(2), Vec3::UnitZ()));
+  // around an axis: outwards, around, along; the middle of the cube is seen from (2, 0.5)
+  const Mat3 around = axes(read(oriented(", SYSTEM=CYLINDRICAL", "2, 0.5, 0, 2, 0.5, 4\n")));
+  CHECK(near(around.col(0), -Vec3::UnitX()));
+  CHECK(near(around.col(1), -Vec3::UnitY()));
+  CHECK(near(around.col(2), Vec3::UnitZ()));
+  // directions of fibres below belong to a material
+  CHECK(axes(read(oriented(", LOCAL DIRECTIONS=1", "1, 0, 0, 0, 1, 0\n1, 0\n0.7, 0.7, 0\n")))
+            .isApprox(Mat3::Identity(), 1e-14));
+}
+
+TEST_CASE("an *ORIENTATION of a part turns with its instances") {
+  const std::string more =
+      "*Elset, elset=all\n1\n*Orientation, name=o\n1, 0, 0, 0, 1, 0\n"
+      "*Solid Section, elset=all, orientation=o\n";
+  const Mesh mesh = read(part("P", more) +
+                         "*Instance, name=I, part=P\n3, 0, 0\n0, 0, 0, 0, 0, 1, 90\n*End Instance\n"
+                         "*Instance, name=J, part=P\n9, 0, 0\n*End Instance\n");
+  REQUIRE(mesh.frames.size() == 2);
+  CHECK(near(mesh.frames[0].col(0), Vec3::UnitY()));
+  CHECK(near(mesh.frames[0].col(2), -Vec3::UnitX()));
+  CHECK(near(mesh.frames[1].col(0), Vec3::UnitX()));
+  CHECK(near(mesh.frames[1].col(2), Vec3::UnitY()));
+}
+
+TEST_CASE("an *ORIENTATION that is not understood is left out with the reason") {
+  const auto note = [](const std::string& text) {
+    std::vector<std::string> notes;
+    const Mesh mesh = read(text, notes);
+    CHECK(mesh.frames.empty());
+    REQUIRE(notes.size() == 1);
+    return notes[0];
+  };
+  CHECK(note(oriented(", system=spherical", "0, 0, 0, 0, 0, 1\n")) ==
+        "left out: *ORIENTATION o, SYSTEM=SPHERICAL");
+  CHECK(note(oriented(", definition=nodes", "1, 2, 3\n")) ==
+        "left out: *ORIENTATION o, DEFINITION=NODES");
+  CHECK(note(oriented("", "dist-1\n1, 0.\n")) ==
+        "left out: *ORIENTATION o, found \"dist-1\" in line 15");
+  CHECK(note(oriented("", "1, 0, 0\n")) == "left out: *ORIENTATION o, 3 numbers in line 15");
+  CHECK(note(oriented("", "1, 0, 0, 0, 1, 0\n4, 30\n")) ==
+        "left out: *ORIENTATION o, rotation about axis 4 in line 16");
+  for (const std::string points :
+       {"1, 0, 0, 2, 0, 0\n", "0, 0, 0, 0, 1, 0\n", "0, 0, 0, 0, 0, 0\n", "",
+        "1e300, 0, 0, 0, 1e300, 0, 1e300, 0, 0\n", "1e200, 0, 0, 0, 1e200, nan\n"}) {
+    CAPTURE(points);
+    CHECK(note(oriented("", points)).starts_with("left out: *ORIENTATION o, "));
+  }
+  CHECK(note(oriented(", system=cylindrical", "0.5, 0.5, 0, 0.5, 0.5, 1\n")) ==
+        "left out: *ORIENTATION o, whose points give no directions");
+  CHECK(note(cube() + "*Elset, elset=all\n1\n*Solid Section, elset=all, orientation=other\n") ==
+        "left out: there is no *ORIENTATION other");
+}
+
 TEST_CASE("a fault in an included file has its line there") {
   CHECK(refusal("*INCLUDE, INPUT=n.inc\n", {{"n.inc", "*NODE\n1, 0, zero, 0\n"}})
             .starts_with("n.inc:2:1: found \"zero\"; expected a number"));

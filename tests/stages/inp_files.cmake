@@ -99,3 +99,34 @@ material:
 endforeach()
 run(0 ${BIN}/langer show cook_elements.h5)
 expect_said("cook")
+
+# fibres along axis 1 of an orientation that is turned by 30 degrees are fibres at 30 degrees
+set(orientation "*ORIENTATION, NAME=o\n0.8660254037844387, 0, 0.5, -0.5, 0, 0.8660254037844387\n")
+file(WRITE ${folder}/main.inp "${nodes}${element}${orientation}*SOLID SECTION, ELSET=skin, MATERIAL=m, ORIENTATION=o\n")
+file(WRITE ${folder}/solve.yaml
+  "mesh: {geometry: {file: {path: main.inp}}}\n"
+  "material:\n  matrix: [{yeoh: {a1: 0.05, a2: 0.02, a3: 0}}]\n  fibres: [{hgo: {c1: 0.1, c2: 0.3}}]\n"
+  "  volume: {quadratic: {d: 0.5}}\n"
+  "fibre_angles: [30]\nsupports: [{on: x_min, hold: [x, y, z]}]\n"
+  "loads: [{on: x_max, displacement: {x: 0.2}}]\npath: {steps: 2}\n")
+file(WRITE ${folder}/post.yaml "columns: [{quantity: t}, {quantity: energy}, {quantity: sigma_xx, at: x_max}, {quantity: sigma_xz, at: x_max}]\n")
+run(0 ${BIN}/langer-solve solve.yaml -o global.h5 --quiet)
+run(0 ${BIN}/langer-mesh mesh.yaml -o oriented.h5)
+expect_said("1 of 1 elements have an *ORIENTATION, in which `frames: file` measures angles")
+run(0 ${BIN}/langer-solve solve.yaml --set mesh.frames=file --set "fibre_angles=[0]" -o file.h5 --quiet)
+run(0 ${BIN}/langer-solve solve.yaml --set "fibre_angles=[0]" -o along.h5 --quiet)
+foreach(name global file along)
+  run(0 ${BIN}/langer-post post.yaml --solution ${name}.h5 -o ${name}_curves.h5 --quiet)
+endforeach()
+foreach(name global file along)
+  file(READ ${folder}/${name}_curves.csv text)
+  string(REGEX REPLACE "\n0,[^\n]*" "" text "${text}")  # at rest there is rounding alone
+  string(REGEX REPLACE "([.][0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9])[0-9]*" "\\1" ${name}_curves "${text}")
+endforeach()
+expect_equal("${file_curves}" "${global_curves}" "eight decimals of the curves of turned fibres")
+if(along_curves STREQUAL global_curves)
+  message(FATAL_ERROR "the direction of the fibres does not matter: ${along_curves}")
+endif()
+file(WRITE ${folder}/main.inp "${nodes}${element}*SOLID SECTION, ELSET=skin, MATERIAL=m\n")
+run(2 ${BIN}/langer-solve solve.yaml --set mesh.frames=file -o none.h5)
+expect_said("frames: found file, and its sections have no *ORIENTATION that can be used; expected frames: global")

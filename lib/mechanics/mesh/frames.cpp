@@ -7,6 +7,7 @@
 namespace langer {
 
 std::vector<Mat3> frames(const Mesh& mesh, Frames kind) {
+  if (kind == Frames::file) return mesh.frames;
   std::vector<Mat3> all(static_cast<std::size_t>(mesh.n_cells()), Mat3::Identity());
   if (kind == Frames::global) return all;
   for (int e = 0; e < mesh.n_cells(); ++e) {

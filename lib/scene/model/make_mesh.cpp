@@ -213,6 +213,9 @@ MadeMesh made(const MeshConfig& config) {
   else
     refuse_folded(result.quality, "geometry");
   name_bodies(mesh, config);
+  if (config.frames == Frames::file && mesh.frames.empty())
+    refuse("frames", "found file, and its sections have no *ORIENTATION that can be used",
+           "frames: global", "the notes of langer-mesh say what was left out of the file");
   mesh.frames = frames(mesh, config.frames);
   const auto node_sets = mesh.node_sets;
   const auto facet_sets = mesh.facet_sets;

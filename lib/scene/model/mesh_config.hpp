@@ -105,7 +105,8 @@ struct MeshConfig {
     v(&MeshConfig::cuts, "cuts", unit::none,
       "regions whose hex8 are cut into eight; the nodes in the middles of larger cells next to them move with the corners of these");
     v(&MeshConfig::frames, "frames", unit::none,
-      "what the fibres' angle is measured in: the coordinate axes, or each cell's edges");
+      "what the fibres' angle is measured in: the coordinate axes, each cell's edges, or the *ORIENTATION of an .inp file, from its "
+      "axis 1 to its axis 2");
     v(&MeshConfig::bend, "bend", unit::none,
       "a flat block or section is bent about the z direction: an arch; of an axisymmetric section a spherical cap or shell. Its bottom lies "
       "on a circle that is convex towards +y, its middle (of an axisymmetric section the axis) where it was. Points, sets and sides are "
@@ -143,10 +144,16 @@ struct MeshConfig {
       if (cell.hexahedron() && cell.second_order() && !std::get<FromFile>(geometry).is_inp())
         found.push_back({"cells", std::string("found ") + name,
                          "hex8 or tet15, where geometry is no .inp", ""});
-      if (!cell.hexahedron() && frames != Frames::global)
+      if (frames == Frames::file && !std::get<FromFile>(geometry).is_inp())
+        found.push_back({"frames", "found file, and geometry is no .inp", "global",
+                         "only an .inp has directions, as *ORIENTATION"});
+      if (!cell.hexahedron() && frames == Frames::element_edges)
         found.push_back({"frames", std::string("found element_edges together with cells: ") + name,
                          "global: no edge of a tetrahedron stands for a direction", ""});
     } else {
+      if (frames == Frames::file)
+        found.push_back(
+            {"frames", "found file, and geometry is no file", "global or element_edges", ""});
       if (!cell.hexahedron())
         found.push_back(
             {"cells", std::string("found ") + name,
