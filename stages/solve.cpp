@@ -100,7 +100,7 @@ std::optional<Summaries> reuse_mirrored_solution(const Case& input) {
 void run_worker_rank(Run& run, bool dry_run, const SolveConfig& config) {
   if (!run.shared_by()) return;
   if (dry_run) {
-    forecast_of(config, run.body, run.statics, run.scene);
+    forecast_of(config, run.body, run.increment, run.scene);
     return;
   }
   on_root_rank(run.shared_by(), [] { return true; });  // the preparation of rank 0
@@ -125,7 +125,7 @@ struct Observers {
   void prepare(const Case& input, const SolveConfig& config, Run& run, RunWatch& watch) {
     const Job<SolveConfig>& job = input.job;
     on_root_rank(run.shared_by(), [&] {
-      check_memory(run.statics, watch.of_mesh(), config.threads);
+      check_memory(run.increment, watch.of_mesh(), config.threads);
       sensitivity.emplace(run, config, job.where);
       uncertainty.emplace(input.parameters, run, *sensitivity);
       recording.emplace(run, watch, config, job.identity, job.output,
@@ -226,7 +226,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
               summary_of(errors.at_end), model.summary(errors.at_end), watch.contact_summary(),
               of_vibration, recording.impact_summary()});
   recording.finish(results, histories_of(errors));
-  progress.finished(end.path, run.statics, recording.seconds());
+  progress.finished(end.path, run.increment, recording.seconds());
   // Forces with the deviation of the parameters have been named with their error bars.
   if (forces.empty()) report_results(job.voice(), config, run, end.last, errors.at_end);
 

@@ -109,7 +109,7 @@ TEST_CASE("the movement with an indenter is the derivative of the states along i
   REQUIRE(run.follow().path.complete);
   ParameterChange by;
   by.indenters = {-Vec3::UnitY()};
-  const StateTangent tangent(run.statics, run.statics.accepted());
+  const StateTangent tangent(run.increment, run.increment.accepted());
   const auto movement = tangent.derivative(by, tangent.of_rest(), tangent.of_rest());
   REQUIRE(movement);
   double most = 0, off = 0, dr = 0;

@@ -22,8 +22,8 @@ void measure_candidates() {
       scene.mu = mu;
       scene.reach = reach;
       std::size_t candidates = 0;
-      scene.before = [&](Assembler&, const Statics& statics, const LoadPathOptions&) {
-        candidates = statics.contacts()[0].nodes.size();
+      scene.before = [&](Assembler&, const Increment& increment, const LoadPathOptions&) {
+        candidates = increment.contacts()[0].nodes.size();
       };
       const double begun = cpu_seconds();
       const auto result = scene.run(test::table1(60, 1e-6));

@@ -42,7 +42,8 @@ Curve along(const SolveConfig& config, const Mesh& mesh, double depth) {
     };
     const RunEnd end = run.follow(each);
     if (!end.path.complete) throw std::runtime_error(end.path.why);
-    curve.seconds = cpu_seconds() - begun, curve.factorizations = run.statics.cost().factorizations;
+    curve.seconds = cpu_seconds() - begun,
+    curve.factorizations = run.increment.cost().factorizations;
     if (curve.seconds < best.seconds) best = curve;
   }
   return best;

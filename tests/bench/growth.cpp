@@ -34,14 +34,14 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   scene.newton.linear = linear;
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
-  scene.before = [&](Assembler& body, const Statics& statics, const LoadPathOptions& path) {
-    told = forecast(body, statics.size(), {}, path, {},
-                    {false, statics.contact_in_tangent(), statics.mixed()});
+  scene.before = [&](Assembler& body, const Increment& increment, const LoadPathOptions& path) {
+    told = forecast(body, increment.size(), {}, path, {},
+                    {false, increment.contact_in_tangent(), increment.mixed()});
   };
   double begun = 0;
-  scene.before = [told_of = scene.before, &begun](Assembler& body, const Statics& statics,
+  scene.before = [told_of = scene.before, &begun](Assembler& body, const Increment& increment,
                                                   const LoadPathOptions& path) {
-    told_of(body, statics, path);
+    told_of(body, increment, path);
     begun = wall_seconds();
   };
   const auto result = scene.run(skin);

@@ -275,7 +275,7 @@ void measure_price_of(const std::string& yaml, const std::vector<std::string>& k
       };
       path = run.follow(sensitivity.along(each)).path;
       least = std::min(least, cpu_seconds() - begun),
-      factorizations = run.statics.cost().factorizations;
+      factorizations = run.increment.cost().factorizations;
     }
     if (n == 0) none = least;
     fmt::print(

@@ -59,9 +59,9 @@ VecX row(const SolveConfig& config, const Mesh& mesh, const Scene& scene, const 
   };
   const PathReport path = run.follow(count).path;
   fmt::print("| {} | {} | {} | {} | {:.2f} |{}\n", name, path.iterations + path.again, evaluations,
-             run.statics.cost().factorizations, cpu_seconds() - began,
+             run.increment.cost().factorizations, cpu_seconds() - began,
              path.complete ? "" : " " + path.why);
-  return run.statics.accepted().u;
+  return run.increment.accepted().u;
 }
 
 }  // namespace

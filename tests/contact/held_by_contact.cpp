@@ -26,16 +26,16 @@ TEST_CASE("a cube between two rough plates, held by nothing else") {
                            0.5,
                            mesh.node_sets.at("y_max"),
                            {{1, Vec3(0, -0.2, 0)}}};
-  Statics statics(body, {below, above}, {});
-  const ExactPath result = run(statics, 0.1);
+  Increment increment(body, {below, above}, {});
+  const ExactPath result = run(increment, 0.1);
   REQUIRE(result.path.complete);
   CHECK(result.path.cut_backs == 0);
   for (int n : result.iterations) CHECK(n <= 7);
-  const auto defects = statics.defects();
+  const auto defects = increment.defects();
   CHECK(defects[0].force[1] > 0.01);
   CHECK((defects[0].force + defects[1].force).norm() < 1e-7 * defects[0].force[1]);
-  CHECK(statics.n_indefinite() > 0);
-  CHECK(statics.n_unstable() == 0);
+  CHECK(increment.n_indefinite() > 0);
+  CHECK(increment.n_unstable() == 0);
 }
 
 TEST_CASE("the same cube on a held base gives the same force: the springs leave nothing behind") {
@@ -59,9 +59,9 @@ TEST_CASE("the same cube on a held base gives the same force: the springs leave 
                           {{1, Vec3(0, 0, 0)}}});
     Assembler body = test::equilibrium(mesh, {test::stable(30, 1e-4)}, Formulation::mean_dilatation,
                                        number_dofs(mesh.n_nodes(), held).dofs);
-    Statics statics(body, contacts, {});
-    REQUIRE(run(statics, 0.25).path.complete);
-    return -statics.defects()[0].force[1];
+    Increment increment(body, contacts, {});
+    REQUIRE(run(increment, 0.25).path.complete);
+    return -increment.defects()[0].force[1];
   };
   CHECK(force(false) == near(force(true), 1e-7));
 }

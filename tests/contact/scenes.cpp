@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/nonlinear/load_path.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -20,17 +20,17 @@ std::vector<double> towards_zero(double length, int n, double h) {
   return {both.begin(), both.begin() + n + 1};
 }
 
-PathReport follow_path(Statics& statics, double increment, const std::vector<double>& stops = {}) {
+PathReport follow_path(Increment& increment, double length, const std::vector<double>& stops = {}) {
   LoadPathOptions path;
-  path.first = path.largest = increment;
+  path.first = path.largest = length;
   return load_path(
       path, 0, {}, stops,
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), {});
       },
       [&](double, double, double, const SolveReport&) {
-        statics.accept();
+        increment.accept();
         return true;
       });
 }
@@ -55,9 +55,9 @@ TEST_CASE(
   Assembler body =
       test::equilibrium(mesh, {test::neo_hooke(a1, 1e-4)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
-  Statics statics(body, {sphere}, {});
-  REQUIRE(follow_path(statics, 0.5).complete);
-  const double force = -4 * statics.defects()[0].force[1],
+  Increment increment(body, {sphere}, {});
+  REQUIRE(follow_path(increment, 0.5).complete);
+  const double force = -4 * increment.defects()[0].force[1],
                hertz = 16. / 9 * E * std::sqrt(R) * std::pow(depth, 1.5);
   MESSAGE("force " << force << " N, Hertz " << hertz << " N");
   CHECK(force == near(hertz, 0.02));
@@ -83,9 +83,9 @@ TEST_CASE("a wedge pushed under a block: F/G = (tan a + mu)/(1 - mu tan a)") {
     Assembler body =
         test::equilibrium(mesh, {test::neo_hooke(1, 1e-2)}, Formulation::mean_dilatation,
                           number_dofs(mesh.n_nodes(), held).dofs);
-    Statics statics(body, {wedge}, {});
-    REQUIRE(follow_path(statics, 0.05, {0.1}).complete);
-    const ContactDefect defect = statics.defects()[0];
+    Increment increment(body, {wedge}, {});
+    REQUIRE(follow_path(increment, 0.05, {0.1}).complete);
+    const ContactDefect defect = increment.defects()[0];
     const double friction = mu;
     CAPTURE(friction);
     CHECK(defect.stick == 0);

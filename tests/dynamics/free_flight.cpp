@@ -40,7 +40,7 @@ Kept fly(const Mesh& mesh, const Material& material, int steps, double step,
   test::Moving block(mesh, material, number_dofs(mesh.n_nodes(), {}).dofs, options, {}, step, steps,
                      {}, formulation);
   const auto angular = [&] {
-    const BodyState& now = block.statics().accepted();
+    const BodyState& now = block.increment().accepted();
     return block.inertia().angular_momentum(now.u, now.motion);
   };
   const double energy = block.energy();
@@ -105,7 +105,7 @@ TEST_CASE("a tumbling block is where it should be to the second order of the ste
     test::Moving block(mesh, test::neo_hooke(0.05, 2), number_dofs(mesh.n_nodes(), {}).dofs,
                        tumbling(mesh, Scheme::energy_momentum), {}, 1e-4 / steps, steps);
     for (int i = 0; i < steps; ++i) block.step(1e-12);
-    return block.statics().accepted().u;
+    return block.increment().accepted().u;
   };
   const VecX coarse = end_of(40);
   const VecX middle = end_of(80);
@@ -123,7 +123,7 @@ TEST_CASE("a rigid-like block turns about its longest axis for ever as Euler say
   test::Moving block(mesh, test::neo_hooke(500, 1e-3), number_dofs(mesh.n_nodes(), {}).dofs,
                      options, {}, 1e-4, steps);
   for (int i = 0; i < steps; ++i) block.step(1e-12);
-  const VecX& u = block.statics().accepted().u;
+  const VecX& u = block.increment().accepted().u;
   const double h = 1e-4 * 100;
   const double angle = steps * 2 * std::atan(h / 2);  // of the mid-point rule
   const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();

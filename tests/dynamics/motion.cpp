@@ -40,7 +40,7 @@ Vec3 end_of_beam(InertiaOptions options, int n_steps) {
   test::Moving beam(mesh, test::neo_hooke(0.1, 1), clamped(mesh, "x_min"), options, {},
                     2e-4 / n_steps, n_steps);
   for (int i = 0; i < n_steps; ++i) beam.step();
-  return beam.statics().accepted().u.segment<3>(3 * mesh.node_sets.at("x_max").front());
+  return beam.increment().accepted().u.segment<3>(3 * mesh.node_sets.at("x_max").front());
 }
 
 double order_of(const InertiaOptions& options) {
@@ -65,9 +65,9 @@ TEST_CASE("the tangent of a body in motion is the derivative of its balance") {
     test::Moving moving(mesh, test::neo_hooke(0.1, 0.5), dofs, options, {}, 1e-4, 4, {},
                         Formulation::displacement);
     moving.step();
-    moving.statics().begin(0.5);
+    moving.increment().begin(0.5);
     Assembler& body = moving.body();
-    VecX u = moving.statics().trial();
+    VecX u = moving.increment().trial();
     for (int dof : dofs.free) u[dof] += 0.01 * std::sin(3.0 * dof);
     VecX direction(dofs.n_free());
     VecX all = VecX::Zero(dofs.n);
@@ -131,7 +131,7 @@ TEST_CASE("a body whose base is moved at its own speed is not strained") {
     test::Moving moving(mesh, test::neo_hooke(0.1, 0.5), dofs, options, {}, step, n_steps);
     for (int i = 1; i <= n_steps; ++i) {
       moving.step();
-      const VecX& u = moving.statics().accepted().u;
+      const VecX& u = moving.increment().accepted().u;
       for (int node = 0; node < mesh.n_nodes(); ++node) {
         const Vec3 off = u.segment<3>(3 * node) - i * step * velocity;
         CHECK(off.norm() < 1e-9 * i * step * velocity.norm());
@@ -150,7 +150,7 @@ TEST_CASE("a body falls by g t^2 / 2, whatever the scheme") {
     test::Moving block(mesh, test::neo_hooke(0.1, 0.5), number_dofs(mesh.n_nodes(), {}).dofs,
                        options, {}, 1e-3, 10);
     for (int i = 0; i < 10; ++i) block.step();
-    const VecX& u = block.statics().accepted().u;
+    const VecX& u = block.increment().accepted().u;
     CHECK(u[0] == near(1, 1e-9));
     CHECK(u[1] == near(-0.5 * 9810 * 1e-4, 1e-9));
     CHECK(std::abs(block.motion().balance) < 1e-9 * block.energy());
@@ -224,7 +224,7 @@ TEST_CASE("a small vibration under Rayleigh damping decays as its modes do") {
     }
     VecX found(dofs.n_free());
     for (int row = 0; row < dofs.n_free(); ++row) {
-      found[row] = moving.statics().accepted().u[dofs.free[row]];
+      found[row] = moving.increment().accepted().u[dofs.free[row]];
     }
     CHECK((found - exact).norm() < 1e-3 * exact.norm());
     CHECK(moving.energy() < 0.9 * kinetic);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mechanics/dynamics/inertia.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -34,39 +34,39 @@ class Moving {
     }
     inertia_ = std::make_unique<Inertia>(body_, options);
     body_.set_added_term(inertia_.get());
-    StaticsOptions statics;
-    statics.seconds = options.seconds;
-    statics.inertia = inertia_.get();
-    statics_ = std::make_unique<Statics>(body_, std::move(contacts), statics);
+    IncrementOptions increment;
+    increment.seconds = options.seconds;
+    increment.inertia = inertia_.get();
+    increment_ = std::make_unique<Increment>(body_, std::move(contacts), increment);
   }
 
   void step(double relative = 1e-10) {
     ++done_;
-    statics_->begin(static_cast<double>(done_) / n_);
+    increment_->begin(static_cast<double>(done_) / n_);
     NewtonOptions options;
     options.relative = relative;
-    const SolveReport report = newton(statics_->problem(), statics_->trial(), options);
+    const SolveReport report = newton(increment_->problem(), increment_->trial(), options);
     if (!report.converged()) {
       throw std::runtime_error("step " + std::to_string(done_) + ": " + report.why);
     }
-    statics_->accept();
+    increment_->accept();
   }
   // Continues from another state, at the beginning of the path.
   void restart_from(const BodyState& state) {
     done_ = 0;
-    statics_->restore(state);
+    increment_->restore(state);
   }
   double force() const {  // of all contacts [N]
     Vec3 sum = Vec3::Zero();
-    for (const auto& r : statics_->accepted().r) {
+    for (const auto& r : increment_->accepted().r) {
       for (const Vec3& one : r) sum += one;
     }
     return sum.norm();
   }
-  const MotionState& motion() const { return statics_->accepted().motion; }
+  const MotionState& motion() const { return increment_->accepted().motion; }
   double energy() const { return motion().kinetic + motion().stored; }
   Assembler& body() { return body_; }
-  Statics& statics() { return *statics_; }
+  Increment& increment() { return *increment_; }
   Inertia& inertia() { return *inertia_; }
 
  private:
@@ -75,7 +75,7 @@ class Moving {
   std::vector<Material> materials_;
   Assembler body_;
   std::unique_ptr<Inertia> inertia_;
-  std::unique_ptr<Statics> statics_;
+  std::unique_ptr<Increment> increment_;
 };
 
 }  // namespace langer::test

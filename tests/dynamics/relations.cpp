@@ -22,7 +22,7 @@ InertiaOptions without_loss(Scheme scheme) {
 
 // From here on with all velocities turned round.
 void reverse(test::Moving& moving) {
-  BodyState state = moving.statics().accepted();
+  BodyState state = moving.increment().accepted();
   state.motion.v = -state.motion.v;
   state.t = 0;
   moving.restart_from(state);
@@ -37,10 +37,10 @@ TEST_CASE("an elastic body that is reversed in time goes back to where it began"
     test::Moving block(mesh, test::neo_hooke(0.05, 2), number_dofs(mesh.n_nodes(), {}).dofs,
                        without_loss(scheme), {}, 1e-5, n);
     for (int i = 0; i < n; ++i) block.step(1e-12);
-    const double farthest = block.statics().accepted().u.norm();
+    const double farthest = block.increment().accepted().u.norm();
     reverse(block);
     for (int i = 0; i < n; ++i) block.step(1e-12);
-    CHECK(block.statics().accepted().u.norm() < 1e-8 * farthest);
+    CHECK(block.increment().accepted().u.norm() < 1e-8 * farthest);
     CHECK(farthest > 0.5);
   }
 }
@@ -66,10 +66,10 @@ TEST_CASE("an elastic bounce without friction, reversed in time, ends where it b
   }
   REQUIRE(most > 0);
   REQUIRE(block.force() == 0);
-  CHECK(block.statics().accepted().u[1] > 0.03);
+  CHECK(block.increment().accepted().u[1] > 0.03);
   reverse(block);
   for (int i = 0; i < n; ++i) block.step(1e-12);
-  CHECK(block.statics().accepted().u.lpNorm<Eigen::Infinity>() < 1e-10);
+  CHECK(block.increment().accepted().u.lpNorm<Eigen::Infinity>() < 1e-10);
 }
 
 TEST_CASE("a body moves alike in a frame that moves at constant velocity") {
@@ -83,7 +83,7 @@ TEST_CASE("a body moves alike in a frame that moves at constant velocity") {
       test::Moving block(mesh, test::neo_hooke(0.05, 2), number_dofs(mesh.n_nodes(), {}).dofs,
                          options, {}, 1e-5, n);
       for (int i = 0; i < n; ++i) block.step();
-      return block.statics().accepted().u;
+      return block.increment().accepted().u;
     };
     VecX moving = end_of(shift);
     const VecX still = end_of(Vec3::Zero());

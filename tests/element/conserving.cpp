@@ -61,7 +61,7 @@ ElementNodes turned(const ElementNodes& X, double angle, double size, unsigned s
   return (X * stretch.transpose() + random_nodes(n, most, seed)) * R.transpose() - X;
 }
 
-struct Increment {
+struct TimeStep {
   ElementNodes X, u0, u1;
   ElementGeometry geometry;
   std::vector<Vec3> a;
@@ -82,8 +82,8 @@ struct Increment {
   }
 };
 
-Increment increment(const Cell& cell, const Material& material, double angle, double strain) {
-  Increment out;
+TimeStep time_step(const Cell& cell, const Material& material, double angle, double strain) {
+  TimeStep out;
   out.cell = cell;
   out.material = material;
   out.X = positions(cell.n);
@@ -108,7 +108,7 @@ TEST_CASE(
   for (const Material& material : laws()) {
     for (const Cell& cell : cells) {
       for (double strain : {1e-7, 1e-3, 0.02, 0.2}) {
-        const Increment of = increment(cell, material, 0.2, strain);
+        const TimeStep of = time_step(cell, material, 0.2, strain);
         const ConservingElement at = of.at(of.u1);
         const double change = of.state(of.u1).W - of.state(of.u0).W;
         const VecX du = column(of.u1 - of.u0);
@@ -134,7 +134,7 @@ TEST_CASE("the tangent of an increment is the derivative of its force") {
     for (const Cell& cell : cells) {
       if (cell.n == 27 && !material.fibres.empty()) continue;  // long, and nothing new
       for (double strain : {0., 1e-3, 0.2}) {
-        const Increment of = increment(cell, material, 0.2, strain);
+        const TimeStep of = time_step(cell, material, 0.2, strain);
         const ConservingElement at = of.at(of.u1, true);
         const double h = 3e-6;
         double largest = 0;
@@ -156,7 +156,7 @@ TEST_CASE("over a vanishing increment force and tangent are those of the state")
   for (const Material& material : laws()) {
     for (const Cell& cell : cells) {
       for (double size : {0., 1e-12, 1e-9}) {
-        Increment of = increment(cell, material, 0, 0);
+        TimeStep of = time_step(cell, material, 0, 0);
         of.u1 = of.u0 + random_nodes(cell.n, size, 3);
         const ConservingElement at = of.at(of.u1, true);
         const SolidElement state = of.state(of.u0, true);
@@ -170,7 +170,7 @@ TEST_CASE("over a vanishing increment force and tangent are those of the state")
 
 TEST_CASE("a cell at rest that turns by any angle has no force") {
   for (double angle : {0.1, 1., 2.5}) {
-    Increment of = increment(cells[0], test::neo_hooke(0.1, 1e-6), angle, 0);
+    TimeStep of = time_step(cells[0], test::neo_hooke(0.1, 1e-6), angle, 0);
     of.u0.setZero();
     of.u1 = turned(of.X, angle, 0, 1);
     CHECK(of.at(of.u1).f.norm() < 1e-14 * bulk_modulus(of.material));

@@ -489,7 +489,7 @@ TEST_CASE(
       force[asked] = whole.force_ind;
     };
     REQUIRE(run.follow(sensitivity.along(each)).path.complete);
-    tangents[asked] = run.statics.cost().factorizations;
+    tangents[asked] = run.increment.cost().factorizations;
   }
   CAPTURE(tangents[0]);
   CAPTURE(tangents[1]);

@@ -30,7 +30,7 @@ inline BodiesScene bodies_scene(const std::string& text) {
 
 struct BodiesSolution {
   std::vector<StepRecord> steps;
-  Statics::Cost cost;
+  Increment::Cost cost;
   int iterations = 0;
   RunEnd::At at = RunEnd::At::the_end;
   const StepRecord& last() const { return steps.back(); }
@@ -50,7 +50,7 @@ inline BodiesSolution solved(const BodiesScene& scene, const BodiesListener& eac
     if (each) each(run, step);
   };
   out.at = run.follow(listener).at;
-  out.cost = run.statics.cost();
+  out.cost = run.increment.cost();
   CHECK(out.at == RunEnd::At::the_end);
   REQUIRE(!out.steps.empty());
   return out;

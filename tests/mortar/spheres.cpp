@@ -91,8 +91,8 @@ TEST_CASE("two spheres of other radii and moduli touch as Hertz says") {
   double centre = 0;
   double smallest = 1e9;
   const auto each = [&](const Run& run, const StepRecord& step) {
-    const SurfaceContact& surface = run.statics.surfaces()[0];
-    for (const MortarNode& node : run.statics.surface_averages()[0]) {
+    const SurfaceContact& surface = run.increment.surfaces()[0];
+    for (const MortarNode& node : run.increment.surface_averages()[0]) {
       const auto i = static_cast<std::size_t>(node.candidate);
       const Vec3& X = run.mesh.X[static_cast<std::size_t>(surface.nodes[i])];
       const double off = std::hypot(X[0], X[2]);

@@ -177,7 +177,7 @@ TEST_CASE("a stiff pad with friction is a rigid plane, and its work is stored or
       for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
         work += 0.5 * (reaction[dof] + reaction_next[dof]) * (u_next[dof] - u[dof]);
     const std::vector<Vec3>& r_next = step.contacts.at("pad").r;
-    for (const MortarNode& node : run.statics.surface_averages()[0]) {
+    for (const MortarNode& node : run.increment.surface_averages()[0]) {
       const auto i = static_cast<std::size_t>(node.candidate);
       const Vec3 v = node.average(u_next - u);
       const Vec3 slip = v - node.normal * node.normal.dot(v);
@@ -255,7 +255,7 @@ TEST_CASE("nodes with nothing opposite have a gap of the reach of the search") {
                    "contacts:\n  pad: {on: pad_bottom, against: skin_top}\n");
   double reach = 0;
   const BodiesSolution found = solved(
-      scene, [&](const Run& run, const StepRecord&) { reach = run.statics.surfaces()[0].reach; });
+      scene, [&](const Run& run, const StepRecord&) { reach = run.increment.surfaces()[0].reach; });
   const std::vector<double>& gaps = found.last().contacts.at("pad").gap;
   CHECK(gaps == std::vector<double>(16, reach));
   CHECK(found.last().scalars.at("force_pad") == 0);

@@ -93,7 +93,7 @@ struct TooLong {
   double seconds;
 };
 double need_time(const SolveConfig& config, Run& run, double seconds) {
-  const double takes = forecast_of(config, run.body, run.statics, run.scene).seconds();
+  const double takes = forecast_of(config, run.body, run.increment, run.scene).seconds();
   if (takes > seconds) throw TooLong{takes};
   return takes;
 }

@@ -61,20 +61,20 @@ SolveConfig in_four_steps() {
 
 std::vector<StepRecord> at_a_point(HomogeneousScene& point, const SolveConfig& config) {
   Assembler body = point.assembler();
-  Statics statics(body, {}, {});
+  Increment increment(body, {}, {});
   std::vector<StepRecord> steps;
   const PathReport report = load_path(
       config.path, 0, std::nullopt, {},
       [&](double t) {
-        statics.begin(t);
-        return equilibrium_by(point.solver(), statics);
+        increment.begin(t);
+        return equilibrium_by(point.solver(), increment);
       },
       [&](double, double taken, double next, const SolveReport& step) {
-        statics.accept();
-        const auto whole = point.whole(step_record(statics, body, taken, next, step));
+        increment.accept();
+        const auto whole = point.whole(step_record(increment, body, taken, next, step));
         REQUIRE(whole.has_value());
         // what a run that goes on starts from
-        CHECK((point.reduced(*whole).u - statics.accepted().u).lpNorm<Eigen::Infinity>() < 1e-12);
+        CHECK((point.reduced(*whole).u - increment.accepted().u).lpNorm<Eigen::Infinity>() < 1e-12);
         steps.push_back(*whole);
         return true;
       });

@@ -35,8 +35,8 @@ Found sphere(const LoadCase& scene, CellType cells, std::optional<Formulation> f
   indentation.nx = indentation.nz = 12 / q, indentation.ny = 4 / q, indentation.h = 0.5 * q;
   indentation.radius = scene.sphere, indentation.depth = 0.4, indentation.step = 0.2;
   Found out;
-  indentation.after = [&](const Statics& statics, const Assembler& body) {
-    out.said = locking(body, statics.accepted().u).share;
+  indentation.after = [&](const Increment& increment, const Assembler& body) {
+    out.said = locking(body, increment.accepted().u).share;
   };
   const auto result = indentation.run(scene.material);
   REQUIRE(result.path.complete);
@@ -61,24 +61,24 @@ Found block(const LoadCase& scene, CellType cells, std::optional<Formulation> fo
   Assembler body =
       test::equilibrium(mesh, {scene.material}, formulation.value_or(usual_formulation(cells)),
                         number_dofs(mesh.n_nodes(), held).dofs);
-  Statics statics(body, {}, {});
+  Increment increment(body, {}, {});
   LoadPathOptions path;
   path.first = path.largest = 0.5;
   const PathReport report = load_path(
       path, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), {});
       },
       [&](double, double, double, const SolveReport&) {
-        statics.accept();
+        increment.accept();
         return true;
       });
   REQUIRE(report.complete);
   Found out;
-  const VecX reactions = statics.reactions();
+  const VecX reactions = increment.reactions();
   for (const Prescribed& p : body.dofs().prescribed) out.force += reactions[p.dof] * p.value;
-  out.said = locking(body, statics.accepted().u).share;
+  out.said = locking(body, increment.accepted().u).share;
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -38,12 +38,12 @@ Looked look(const Mat3& H) {
   for (const bool from_cells : {false, true}) {
     Assembler body =
         test::equilibrium(mesh, {test::neo_hooke(a1, d)}, Formulation::mean_dilatation, dofs);
-    StaticsOptions options;
+    IncrementOptions options;
     options.signs_from_cells = from_cells;
-    Statics statics(body, {}, options);
-    statics.restore(state);
+    Increment increment(body, {}, options);
+    increment.restore(state);
     body.pressures_from(state.u);
-    (from_cells ? looked.by_cells : looked.by_factor) = statics.signature();
+    (from_cells ? looked.by_cells : looked.by_factor) = increment.signature();
     looked.cells = every_cell_resists(body, state.u);
   }
   return looked;

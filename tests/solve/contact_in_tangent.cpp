@@ -26,8 +26,8 @@ void compare(test::Indentation scene, const Material& law) {
   const auto condensed = scene.run(law);
   scene.contact_by = ContactBy::tangent;
   bool in_tangent = true;
-  scene.after = [&](const Statics& statics, const Assembler&) {
-    in_tangent = in_tangent && statics.contact_in_tangent();
+  scene.after = [&](const Increment& increment, const Assembler&) {
+    in_tangent = in_tangent && increment.contact_in_tangent();
   };
   const auto sparse = scene.run(law);
   REQUIRE(condensed.path.complete);
@@ -94,8 +94,8 @@ TEST_CASE(
       scene.nx = scene.nz = 20, scene.ny = layers, scene.h = 0, scene.depth = 1e-3,
       scene.step = 1e-3, scene.mu = mu;
       bool in_tangent = false;
-      scene.after = [&](const Statics& statics, const Assembler&) {
-        in_tangent = statics.contact_in_tangent();
+      scene.after = [&](const Increment& increment, const Assembler&) {
+        in_tangent = increment.contact_in_tangent();
       };
       scene.shape = Plane{{0, 4, 0}, {0, -1, 0}}, scene.reach = 30;
       REQUIRE(scene.run(test::neo_hooke(0.3, 1e-4)).path.complete);

@@ -59,20 +59,20 @@ struct Pull {
     for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, (stretch - 1) * length});
     Assembler body = test::equilibrium(mesh, materials, Formulation::mean_dilatation,
                                        number_dofs(mesh.n_nodes(), held).dofs);
-    Statics statics(body, {}, {});
+    Increment increment(body, {}, {});
     LoadPathOptions options;
     options.steps = steps_of, options.smallest = smallest;
     path = load_path(
         options, 0, {}, {},
         [&](double t) {
-          statics.begin(t);
-          return langer::newton(statics.problem(), statics.trial(), newton);
+          increment.begin(t);
+          return langer::newton(increment.problem(), increment.trial(), newton);
         },
         [&](double, double, double, const SolveReport&) {
-          statics.accept();
+          increment.accept();
           return true;
         });
-    u = statics.accepted().u;
+    u = increment.accepted().u;
     sigma.clear();
     for (int e = 0; e < mesh.n_cells(); ++e)
       for (const GaussState& g :
@@ -80,7 +80,7 @@ struct Pull {
                         body.fibres(e), body.element_displacements(u, e)))
         sigma.push_back(g.sigma);
     reaction = 0;
-    const VecX r = statics.reactions();
+    const VecX r = increment.reactions();
     for (int i : mesh.node_sets["x_max"]) reaction += r[3 * i];
   }
 };
@@ -151,24 +151,25 @@ TEST_CASE("extremes: I4 = 1 crossed from both sides, in small and in large strid
       Assembler body =
           test::equilibrium(mesh, {test::stable(alpha, 1e-6)}, Formulation::mean_dilatation,
                             number_dofs(mesh.n_nodes(), held).dofs);
-      Statics statics(body, {}, {});
+      Increment increment(body, {}, {});
       std::vector<double> way;  // up, down through rest, up again
       for (double turn : {1.0, -1.0, 1.0})
         for (double s = stride; s < 2.001 * 0.3; s += stride)
           way.push_back(turn * (s <= 0.3001 ? s : 0.6 - s));
       VecX at_top, at_bottom;
       for (double t : way) {
-        statics.begin(t);
-        const SolveReport report = newton(statics.problem(), statics.trial(), {.relative = 1e-9});
+        increment.begin(t);
+        const SolveReport report =
+            newton(increment.problem(), increment.trial(), {.relative = 1e-9});
         CAPTURE(t);
         REQUIRE_MESSAGE(report.converged(), report.why);
         CHECK(report.iterations <= 9);
-        statics.accept();
-        if (std::abs(t) < 1e-9) CHECK(statics.accepted().u.lpNorm<Eigen::Infinity>() < 1e-8);
+        increment.accept();
+        if (std::abs(t) < 1e-9) CHECK(increment.accepted().u.lpNorm<Eigen::Infinity>() < 1e-8);
         if (std::abs(t - 0.3) < 1e-9) {
           if (at_top.size() > 0)
-            CHECK((statics.accepted().u - at_top).lpNorm<Eigen::Infinity>() < 1e-7);
-          at_top = statics.accepted().u;
+            CHECK((increment.accepted().u - at_top).lpNorm<Eigen::Infinity>() < 1e-7);
+          at_top = increment.accepted().u;
         }
       }
       CHECK(at_top.size() > 0);
@@ -314,23 +315,23 @@ TEST_CASE("extremes: turned by 90 degrees while it is pulled, nothing but the pu
       }
     Assembler body = test::equilibrium(mesh, {test::stable(20, 1e-6)}, Formulation::mean_dilatation,
                                        number_dofs(mesh.n_nodes(), held).dofs);
-    Statics statics(body, {}, {});
+    Increment increment(body, {}, {});
     LoadPathOptions options;
     options.first = options.largest = 0.1;
     const PathReport path = load_path(
         options, 0, {}, {},
         [&](double t) {
-          statics.begin(t);
-          return newton(statics.problem(), statics.trial(), {});
+          increment.begin(t);
+          return newton(increment.problem(), increment.trial(), {});
         },
         [&](double, double, double, const SolveReport&) {
-          statics.accept();
+          increment.accept();
           return true;
         });
     REQUIRE_MESSAGE(path.complete, path.why);
     return std::pair{body.W(), Vec3(R.transpose() * Vec3([&] {
                                       Vec3 sum = Vec3::Zero();
-                                      const VecX r = statics.reactions();
+                                      const VecX r = increment.reactions();
                                       for (int i : mesh.node_sets["x_max"])
                                         sum += r.segment<3>(3 * i);
                                       return sum;

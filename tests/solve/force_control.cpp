@@ -6,7 +6,7 @@
 #include "mechanics/nonlinear/kinsol.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -57,7 +57,7 @@ std::vector<State> run(const Pressed& scene, const Path& way, PathReport* report
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 3.2) contact.nodes.push_back(i);
   Assembler body = test::equilibrium(mesh, {scene.law}, Formulation::mean_dilatation,
                                      number_dofs(mesh.n_nodes(), held).dofs);
-  Statics statics(body, {contact}, {});
+  Increment increment(body, {contact}, {});
   LoadPathOptions path;
   path.first = path.largest = way.largest;
   NewtonOptions tight;
@@ -66,20 +66,20 @@ std::vector<State> run(const Pressed& scene, const Path& way, PathReport* report
   const PathReport end = load_path(
       path, 0, {}, way.stops,
       [&](double t) {
-        statics.begin(t);
-        return scene.kinsol ? kinsol(statics.problem(), statics.free_balance(), statics.trial(),
-                                     *scene.kinsol)
-                            : newton(statics.problem(), statics.trial(), tight);
+        increment.begin(t);
+        return scene.kinsol ? kinsol(increment.problem(), increment.free_balance(),
+                                     increment.trial(), *scene.kinsol)
+                            : newton(increment.problem(), increment.trial(), tight);
       },
       [&](double t, double, double, const SolveReport& step) {
-        statics.accept();
-        for (const ContactDefect& d : statics.defects()) {
+        increment.accept();
+        for (const ContactDefect& d : increment.defects()) {
           CHECK(d.penetration <= 1e-9);
           CHECK(d.cone <= 1e-8);
           CHECK(d.complementarity <= 1e-8);
         }
-        states.push_back({t, statics.accepted().travel, statics.defects()[0].force,
-                          statics.accepted().u, step.iterations + step.again});
+        states.push_back({t, increment.accepted().travel, increment.defects()[0].force,
+                          increment.accepted().u, step.iterations + step.again});
         return true;
       });
   CAPTURE(end.why);

@@ -9,7 +9,7 @@
 #include "mechanics/mesh/select.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -30,22 +30,22 @@ Ended solved(const Mesh& mesh, const Material& law, std::vector<Prescribed> held
   Assembler body = test::equilibrium(mesh, {law}, usual_formulation(mesh.type),
                                      number_dofs(mesh.n_nodes(), std::move(held)).dofs);
   if (!loads.empty()) body.set_loads({mesh, std::move(loads)});
-  Statics statics(body, {}, {});
+  Increment increment(body, {}, {});
   LoadPathOptions path;
   path.steps = steps;
   const PathReport report = load_path(
       path, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), newton_options);
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), newton_options);
       },
       [&](double, double, double, const SolveReport&) {
-        statics.accept();
+        increment.accept();
         return true;
       });
   CAPTURE(report.why);
   REQUIRE(report.complete);
-  return {statics.accepted().u, report.iterations + report.again};
+  return {increment.accepted().u, report.iterations + report.again};
 }
 
 std::vector<Prescribed> on_planes(const Mesh& mesh) {  // symmetry planes x = y = z = 0

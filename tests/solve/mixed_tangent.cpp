@@ -35,8 +35,8 @@ void same_by_both(test::Indentation s, const Material& material) {
   const auto direct = s.run(material);
   s.newton.linear = LinearBy::iterative;
   bool gave_up = false, iterative = false;
-  s.after = [&](const Statics& statics, const Assembler&) {
-    gave_up = gave_up || statics.gave_up_iterating(), iterative = statics.iterative();
+  s.after = [&](const Increment& increment, const Assembler&) {
+    gave_up = gave_up || increment.gave_up_iterating(), iterative = increment.iterative();
   };
   const auto found = s.run(material);
   REQUIRE(direct.path.complete);
@@ -189,14 +189,14 @@ TEST_CASE("iterative: what does not converge is left to a factor") {
       test::equilibrium(mesh, {test::neo_hooke(-0.05, 1)}, Formulation::mean_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
   const auto solved = [&](LinearBy linear_by) {
-    StaticsOptions options;
+    IncrementOptions options;
     options.linear_by = linear_by;
-    Statics statics(body, {}, options);
-    CHECK(statics.iterative() == (linear_by == LinearBy::iterative));
-    statics.begin(1);
-    CHECK(newton(statics.problem(), statics.trial(), {}).converged());
-    CHECK(statics.gave_up_iterating() == (linear_by == LinearBy::iterative));
-    return statics.trial();
+    Increment increment(body, {}, options);
+    CHECK(increment.iterative() == (linear_by == LinearBy::iterative));
+    increment.begin(1);
+    CHECK(newton(increment.problem(), increment.trial(), {}).converged());
+    CHECK(increment.gave_up_iterating() == (linear_by == LinearBy::iterative));
+    return increment.trial();
   };
   const VecX direct = solved(LinearBy::direct), left = solved(LinearBy::iterative);
   CHECK((direct - left).norm() <= 1e-9 * direct.norm());

@@ -28,16 +28,16 @@ TEST_CASE(
       CAPTURE(solver.index());
       CAPTURE(from);
       Assembler body = test::equilibrium(mesh, {skin}, Formulation::mean_dilatation, dofs);
-      Statics statics(body, {contact}, {});
+      Increment increment(body, {contact}, {});
       int calls = 0;
-      const Problem clean = statics.problem();
+      const Problem clean = increment.problem();
       Problem spoilt = clean;
       spoilt.assess = [&](const VecX& x, bool with_tangent) {
         Assessment a = clean.assess(x, with_tangent);
         if (calls++ >= from) a.residual = std::nan("");
         return a;
       };
-      const FreeBalance fixed = statics.free_balance();
+      const FreeBalance fixed = increment.free_balance();
       FreeBalance spoilt_fixed = fixed;
       spoilt_fixed.residual = [&](const VecX& x, VecX& f) {
         const bool ok = fixed.residual(x, f);
@@ -49,18 +49,18 @@ TEST_CASE(
       const PathReport path = load_path(
           options, 0, {}, {},
           [&](double t) {
-            statics.begin(t);
+            increment.begin(t);
             if (const auto* o = std::get_if<KinsolOptions>(&solver))
-              return kinsol(spoilt, spoilt_fixed, statics.trial(), *o);
-            return newton(spoilt, statics.trial(), std::get<NewtonOptions>(solver));
+              return kinsol(spoilt, spoilt_fixed, increment.trial(), *o);
+            return newton(spoilt, increment.trial(), std::get<NewtonOptions>(solver));
           },
           [&](double, double, double, const SolveReport&) {
-            statics.accept();
+            increment.accept();
             return true;
           });
       CHECK_FALSE(path.complete);
       CHECK_FALSE(path.why.empty());
       CHECK(calls < 3000);
-      CHECK(statics.accepted().u.allFinite());
+      CHECK(increment.accepted().u.allFinite());
     }
 }

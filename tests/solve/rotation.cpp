@@ -12,7 +12,7 @@
 #include "mechanics/mesh/select.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
 #include "mechanics/nonlinear/newton.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/post/energy_columns.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
@@ -63,7 +63,7 @@ Found solved(const Turning& scene) {
   Assembler body = test::equilibrium(mesh, {scene.law}, usual_formulation(mesh.type),
                                      number_dofs(mesh.n_nodes(), held).dofs);
   if (!scene.loads.empty()) body.set_loads({mesh, scene.loads});
-  Statics statics(body, scene.contacts, {});
+  Increment increment(body, scene.contacts, {});
   EnergyPath energy(mesh, scene.contacts, scene.stops, scene.turned);
   const std::vector<Vec3> rest(mesh.X.size(), Vec3::Zero());
   std::vector<std::vector<Vec3>> none;
@@ -78,19 +78,19 @@ Found solved(const Turning& scene) {
   const PathReport report = load_path(
       path, 0, {}, scene.stops,
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), tight);
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), tight);
       },
       [&](double t, double, double, const SolveReport&) {
-        statics.accept();
-        for (const ContactDefect& d : statics.defects()) {
+        increment.accept();
+        for (const ContactDefect& d : increment.defects()) {
           CHECK(d.penetration <= 1e-9);
           CHECK(d.cone <= 1e-8);
           CHECK(d.complementarity <= 1e-8);
         }
-        const BodyState& state = statics.accepted();
+        const BodyState& state = increment.accepted();
         found.states.push_back(state);
-        found.reactions = statics.reactions();
+        found.reactions = increment.reactions();
         std::vector<Vec3> u, f;
         for (Eigen::Index i = 0; i < state.u.size(); i += 3)
           u.push_back(state.u.segment<3>(i)), f.push_back(found.reactions.segment<3>(i));
@@ -103,7 +103,7 @@ Found solved(const Turning& scene) {
       });
   CAPTURE(report.why);
   REQUIRE(report.complete);
-  found.u = statics.accepted().u, found.sums = energy.sums().back();
+  found.u = increment.accepted().u, found.sums = energy.sums().back();
   return found;
 }
 

@@ -18,19 +18,19 @@ namespace {
 struct EnergyOf {
   std::unique_ptr<EnergyPath> path;
   explicit EnergyOf(test::Indentation& scene) {
-    scene.after = [this](const Statics& statics, const Assembler& body) {
-      const BodyState& state = statics.accepted();
-      const VecX reactions = statics.reactions();
+    scene.after = [this](const Increment& increment, const Assembler& body) {
+      const BodyState& state = increment.accepted();
+      const VecX reactions = increment.reactions();
       std::vector<Vec3> u, f;
       for (Eigen::Index i = 0; i < state.u.size(); i += 3)
         u.push_back(state.u.segment<3>(i)), f.push_back(reactions.segment<3>(i));
       if (!path) {
-        path = std::make_unique<EnergyPath>(body.mesh(), statics.contacts());
+        path = std::make_unique<EnergyPath>(body.mesh(), increment.contacts());
         const std::vector<Vec3> rest(body.mesh().n_nodes(), Vec3::Zero());
         path->add({0,
                    rest,
                    rest,
-                   {std::vector<Vec3>(statics.contacts()[0].nodes.size(), Vec3::Zero())},
+                   {std::vector<Vec3>(increment.contacts()[0].nodes.size(), Vec3::Zero())},
                    0});
       }
       path->add({state.t, u, f, state.r, body.W()});

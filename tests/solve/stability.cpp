@@ -32,7 +32,7 @@ std::vector<Seen> pull(const Material& material, int n, double to, int steps, do
   for (int i : mesh.node_sets["x_max"]) held.push_back({3 * i, to - 1});
   Assembler body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
                                      number_dofs(mesh.n_nodes(), held).dofs);
-  Statics statics(body, {}, {});
+  Increment increment(body, {}, {});
   StabilityWatch watch({});
   LoadPathOptions options;
   options.steps = steps;
@@ -40,12 +40,12 @@ std::vector<Seen> pull(const Material& material, int n, double to, int steps, do
   const PathReport path = load_path(
       options, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), {});
       },
       [&](double t, double, double, const SolveReport&) {
-        statics.accept();
-        seen.push_back({1 + t * (to - 1), watch.look(body, statics)});
+        increment.accept();
+        seen.push_back({1 + t * (to - 1), watch.look(body, increment)});
         return true;
       });
   REQUIRE(path.complete);
@@ -151,17 +151,17 @@ TEST_CASE(
       const Material material = test::stable(40, 1e-3);
       Assembler body = test::equilibrium(mesh, {material}, Formulation::mean_dilatation,
                                          number_dofs(mesh.n_nodes(), held).dofs);
-      Statics statics(body, {contact}, {});
+      Increment increment(body, {contact}, {});
       for (double t : {0.1, 0.2, 0.3, 0.4}) {
-        statics.begin(t);
-        const SolveReport report = newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        const SolveReport report = newton(increment.problem(), increment.trial(), {});
         if (!report.converged()) break;  // a block that nothing holds may glide away
-        statics.accept();
-        const Signature found = statics.signature();
+        increment.accept();
+        const Signature found = increment.signature();
         // the definition, dense
         const Dofs& dofs = body.dofs();
         MatX K = dense(body), Z = MatX::Zero(dofs.n_free(), dofs.n_free());
-        const ContactDefect defect = statics.defects()[0];
+        const ContactDefect defect = increment.defects()[0];
         Eigen::Index columns = 0;
         std::vector<int> candidate(static_cast<std::size_t>(mesh.n_nodes()), -1);
         for (std::size_t i = 0; i < contact.nodes.size(); ++i)
@@ -172,7 +172,7 @@ TEST_CASE(
           if (const int i = candidate[node]; i >= 0 && defect.status[i] != ContactStatus::open) {
             const Vec3 c = indenter_displacement(contact, t);
             const ShapePoint shape = shape_at(
-                contact.shape, mesh.X[node] + statics.accepted().u.segment<3>(3 * node) - c);
+                contact.shape, mesh.X[node] + increment.accepted().u.segment<3>(3 * node) - c);
             const Mat3 frame = contact_frame(shape.normal);
             basis << frame.col(1), frame.col(2), frame.col(0);
             kept = defect.status[i] == ContactStatus::slip ? 2 : 0;
@@ -180,7 +180,7 @@ TEST_CASE(
               for (int j = 0; j < 3; ++j)
                 for (int k = 0; k < 3; ++k)
                   K(dofs.equation[3 * node + j], dofs.equation[3 * node + k]) -=
-                      statics.accepted().r[0][i].dot(shape.normal) * shape.curvature(j, k);
+                      increment.accepted().r[0][i].dot(shape.normal) * shape.curvature(j, k);
           }
           for (int c = 0; c < kept; ++c) {
             VecX z = VecX::Zero(dofs.n_free());

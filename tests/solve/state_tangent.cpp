@@ -86,37 +86,37 @@ Found run(const Pressed& scene, Number number, double by, bool differentiate) {
     if (std::hypot(mesh.X[i][0], mesh.X[i][2]) < 3) contact.nodes.push_back(i);
   Assembler body = test::equilibrium(mesh, {law_of(scene, number, by)}, scene.formulation,
                                      number_dofs(mesh.n_nodes(), held).dofs);
-  StaticsOptions options;
+  IncrementOptions options;
   options.gap_tolerance = 3e-13,
   options.law_tolerance = 3e-13;  // at 1e-13 rounding decides whether a pushed path ends
-  Statics statics(body, {contact}, options);
+  Increment increment(body, {contact}, options);
   LoadPathOptions path;
   path.steps = scene.steps;
   NewtonOptions tight;
   tight.relative = 1e-13;
   Found out;
-  BodyState last = statics.accepted(), earlier = last;
+  BodyState last = increment.accepted(), earlier = last;
   StateDerivative rest;
   rest.u = VecX::Zero(last.u.size());
   std::vector<StateDerivative> d_last(2, rest);
   const PathReport report = load_path(
       path, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        Problem problem = statics.problem();
+        increment.begin(t);
+        Problem problem = increment.problem();
         problem.begins_again = false;  // paths that are compared are found alike
-        return scene.kinsol
-                   ? kinsol(problem, statics.free_balance(), statics.trial(), {.relative = 1e-12})
-                   : newton(problem, statics.trial(), tight);
+        return scene.kinsol ? kinsol(problem, increment.free_balance(), increment.trial(),
+                                     {.relative = 1e-12})
+                            : newton(problem, increment.trial(), tight);
       },
       [&](double, double, double, const SolveReport&) {
-        statics.accept();
-        out.states.push_back(statics.accepted()), out.reactions.push_back(statics.reactions());
-        out.status.push_back(statics.defects()[0].status);
+        increment.accept();
+        out.states.push_back(increment.accepted()), out.reactions.push_back(increment.reactions());
+        out.status.push_back(increment.defects()[0].status);
         if (!differentiate) return true;
         ParameterChange change;
         change.f = VecX::Zero(rest.u.size());
-        const VecX& u = statics.accepted().u;
+        const VecX& u = increment.accepted().u;
         if (number == friction) {
           change.mu = {1};
         } else {
@@ -130,12 +130,12 @@ Found run(const Pressed& scene, Number number, double by, bool differentiate) {
           const Material law = law_of(scene, number, 0);
           body.set_materials({law}, make_directions(mesh, {fibre_angles(law)}));
         }
-        const StateTangent tangent(statics, earlier);
+        const StateTangent tangent(increment, earlier);
         const auto found = tangent.derivative(change, d_last[0], d_last[1]);
         REQUIRE(found);
         out.derivatives.push_back(*found),
             out.d_reactions.push_back(tangent.reactions({change}, {*found})[0]);
-        earlier = last, last = statics.accepted();
+        earlier = last, last = increment.accepted();
         d_last = {*found, d_last[0]};
         return true;
       });

@@ -5,7 +5,7 @@
 
 #include "core/tensor/stress.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -31,20 +31,20 @@ Tensile pull(const Material& material, Formulation formulation, double travel = 
   for (int i : scene.mesh.node_sets["x_max"]) held.push_back({3 * i, travel});
   Assembler body = test::equilibrium(scene.mesh, {material}, formulation,
                                      number_dofs(scene.mesh.n_nodes(), held).dofs);
-  Statics statics(body, {}, {});
+  Increment increment(body, {}, {});
   LoadPathOptions options;
   options.steps = 100;
   scene.path = load_path(
       options, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), {});
       },
       [&](double, double, double, const SolveReport&) {
-        statics.accept();
+        increment.accept();
         return true;
       });
-  scene.u = statics.accepted().u;
+  scene.u = increment.accepted().u;
   scene.gauss = gauss_states(formulation, material, body.geometry(0), body.fibres(0),
                              body.element_displacements(scene.u, 0));
   return scene;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mechanics/nonlinear/load_path.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer::test {
 
@@ -15,19 +15,19 @@ struct ExactPath {
   std::vector<int> iterations;
 };
 
-inline ExactPath run(Statics& statics, double increment) {
+inline ExactPath run(Increment& increment, double length) {
   LoadPathOptions options;
-  options.first = options.largest = increment;
+  options.first = options.largest = length;
   ExactPath result;
   result.path = load_path(
       options, 0, {}, {},
       [&](double t) {
-        statics.begin(t);
-        return newton(statics.problem(), statics.trial(), {});
+        increment.begin(t);
+        return newton(increment.problem(), increment.trial(), {});
       },
       [&](double, double, double, const SolveReport& report) {
-        statics.accept();
-        for (const ContactDefect& d : statics.defects()) {
+        increment.accept();
+        for (const ContactDefect& d : increment.defects()) {
           CHECK(d.penetration <= 1e-9);
           CHECK(d.cone <= 1e-8);
           CHECK(d.complementarity <= 1e-8);

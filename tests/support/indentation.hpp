@@ -7,7 +7,7 @@
 
 #include "mechanics/nonlinear/kinsol.hpp"
 #include "mechanics/nonlinear/load_path.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 
@@ -34,9 +34,9 @@ struct Indentation {
   NewtonOptions newton;
   const Ranks* ranks = nullptr;         // that share the cells
   std::optional<KinsolOptions> kinsol;  // in place of newton
-  std::function<void(Assembler&, const Statics&, const LoadPathOptions&)>
-      before;                                                   // told before the first step
-  std::function<void(const Statics&, const Assembler&)> after;  // told after each step
+  std::function<void(Assembler&, const Increment&, const LoadPathOptions&)>
+      before;                                                     // told before the first step
+  std::function<void(const Increment&, const Assembler&)> after;  // told after each step
 
   struct Step {
     double depth, force;
@@ -49,7 +49,7 @@ struct Indentation {
     PathReport path;
     std::vector<Step> steps;
     int n_indefinite = 0;
-    Statics::Cost cost;
+    Increment::Cost cost;
     LinearSolver::Size size;
     double J_min = 1;
     double u_y(double x, double z) const {  // at the top node there
@@ -86,35 +86,35 @@ struct Indentation {
     Assembler body = equilibrium(
         result.mesh, {material}, formulation.value_or(usual_formulation(cells)),
         number_dofs(result.mesh.n_nodes(), held).dofs, threads, Kernel::packets, division);
-    StaticsOptions options;
+    IncrementOptions options;
     options.threads = threads, options.extrapolate = extrapolate, options.contact_by = contact_by,
     options.linear_by = newton.linear;
 
-    Statics statics(body, {contact}, options);
+    Increment increment(body, {contact}, options);
     LoadPathOptions path;
     path.first = path.largest = step / depth;
-    if (before) before(body, statics, path);
+    if (before) before(body, increment, path);
     std::vector<double> stops;
     for (const Waypoint& w : contact.motion) stops.push_back(w.t);
     result.path = load_path(
         path, 0, {}, stops,
         [&](double t) {
-          statics.begin(t);
-          return kinsol ? langer::kinsol(statics.problem(), statics.free_balance(), statics.trial(),
-                                         *kinsol)
-                        : langer::newton(statics.problem(), statics.trial(), newton);
+          increment.begin(t);
+          return kinsol ? langer::kinsol(increment.problem(), increment.free_balance(),
+                                         increment.trial(), *kinsol)
+                        : langer::newton(increment.problem(), increment.trial(), newton);
         },
         [&](double t, double, double, const SolveReport& report) {
-          statics.accept();
-          if (after) after(statics, body);
-          const ContactDefect defect = statics.defects()[0];
+          increment.accept();
+          if (after) after(increment, body);
+          const ContactDefect defect = increment.defects()[0];
           result.steps.push_back({t * depth, -defect.force[1], report.iterations, defect});
           if (seen) seen(result.steps.back());
           return true;
         });
-    result.u = statics.accepted().u;
-    result.n_indefinite = statics.n_indefinite();
-    result.cost = statics.cost(), result.size = statics.size();
+    result.u = increment.accepted().u;
+    result.n_indefinite = increment.n_indefinite();
+    result.cost = increment.cost(), result.size = increment.size();
     result.J_min = body.J_min();
     return result;
   }

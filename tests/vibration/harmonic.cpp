@@ -41,7 +41,7 @@ struct Pressed {
   double seconds;
   RigidContact ball{"ball", Sphere{3, {0.1, 6, -0.05}}, friction, {}, {}, {}};
   std::optional<Assembler> body;
-  std::optional<Statics> statics;
+  std::optional<Increment> increment;
 
   // depth at t = 0.9, and by `more` deeper at t = 0.9 + dt
   Pressed(const Material& law, double mu, double depth, double more, double dt, double duration)
@@ -55,22 +55,22 @@ struct Pressed {
     const std::vector<Material> materials{material};
     body.emplace(mesh, materials, test::directions(mesh, materials), Formulation::mean_dilatation,
                  number_dofs(mesh.n_nodes(), held).dofs);
-    StaticsOptions options;
+    IncrementOptions options;
     options.seconds = seconds;
-    statics.emplace(*body, std::vector{ball}, options);
+    increment.emplace(*body, std::vector{ball}, options);
     for (double t : {0.225, 0.45, 0.675, 0.9}) step(t);
   }
   void step(double t) {
-    statics->begin(t);
+    increment->begin(t);
     NewtonOptions tight;
     tight.relative = 1e-12;
-    REQUIRE(newton(statics->problem(), statics->trial(), tight).converged());
-    if (body->viscous()) statics->time_error();
-    statics->accept();
+    REQUIRE(newton(increment->problem(), increment->trial(), tight).converged());
+    if (body->viscous()) increment->time_error();
+    increment->accept();
   }
   double force() const {  // on the indenter, against its movement
     double sum = 0;
-    for (const Vec3& r : statics->accepted().r[0]) sum -= r[1];
+    for (const Vec3& r : increment->accepted().r[0]) sum -= r[1];
     return sum;
   }
 };
@@ -95,7 +95,7 @@ Complex stiffness_of(const Material& law, double mu, double seconds, double freq
   Driver driver;
   driver.contact = 0;
   driver.along = -Vec3::UnitY();
-  return Harmonic(*scene.body, *scene.statics, {1e-9 * rho}, driver).stiffness(frequency);
+  return Harmonic(*scene.body, *scene.increment, {1e-9 * rho}, driver).stiffness(frequency);
 }
 
 }  // namespace
@@ -137,11 +137,11 @@ TEST_CASE("a sheared column has the stiffness of its waves, with damping and ine
   Assembler body =
       test::equilibrium(mesh, {viscous(1e-3, tau, gamma)}, Formulation::linear_dilatation,
                         number_dofs(mesh.n_nodes(), held).dofs);
-  const Statics statics(body, {}, {});
+  const Increment increment(body, {}, {});
   Driver driver;
   driver.nodes = mesh.node_sets.at("y_max");
   driver.along = Vec3::UnitX();
-  Harmonic harmonic(body, statics, {rho}, driver);
+  Harmonic harmonic(body, increment, {rho}, driver);
   for (double frequency : {1.0, 100.0, 400.0, 1000.0}) {
     CAPTURE(frequency);
     const Complex G = shear_at(frequency, tau, gamma);
@@ -184,8 +184,8 @@ TEST_CASE("a bonded disc on a half space has the stiffness 8 G*(w) a") {
       mesh, materials, test::directions(mesh, materials), Formulation::linear_dilatation,
       number_dofs(mesh.n_nodes(), held, section_ties(mesh)).dofs, 1, Kernel::packets,
       std::vector<double>(static_cast<std::size_t>(mesh.n_cells()), cell_share(*mesh.section)));
-  const Statics statics(body, {}, {});
-  Harmonic harmonic(body, statics, {rho}, driver);
+  const Increment increment(body, {}, {});
+  Harmonic harmonic(body, increment, {rho}, driver);
   for (double frequency : {0.016, 0.16, 1.6}) {
     CAPTURE(frequency);
     const Complex exact = 8.0 * shear_at(frequency, 1, 0.8);

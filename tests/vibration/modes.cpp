@@ -34,11 +34,11 @@ Modes modes_at(const Mesh& mesh, const Material& material, const std::vector<Pre
                const VecX& u, int count) {
   Assembler body = test::equilibrium(mesh, {material}, usual_formulation(mesh.type),
                                      number_dofs(mesh.n_nodes(), held).dofs);
-  Statics statics(body, {}, {});
-  BodyState state = statics.accepted();
+  Increment increment(body, {}, {});
+  BodyState state = increment.accepted();
   state.u = u;
-  statics.restore(state);
-  return modes_of(body, statics, {rho}, {}, count);
+  increment.restore(state);
+  return modes_of(body, increment, {rho}, {}, count);
 }
 
 VecX at_rest(const Mesh& mesh) { return VecX::Zero(3 * mesh.n_nodes()); }

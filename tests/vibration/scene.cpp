@@ -96,8 +96,9 @@ TEST_CASE("an indenter under force control follows the body and makes its modes 
   const VibrationRecord free = *vibration_of(config, run, test::nowhere);
   // the same state under an indenter that stands still
   std::string moved = asked;
-  moved.replace(moved.find(motion), motion.size(),
-                fmt::format("motion: [{{t: 1, to: [0, {}, 0]}}]", -run.statics.accepted().travel));
+  moved.replace(
+      moved.find(motion), motion.size(),
+      fmt::format("motion: [{{t: 1, to: [0, {}, 0]}}]", -run.increment.accepted().travel));
   const VibrationRecord held = vibration(moved);
   CHECK(free.modes->frequency[0] > 0);
   CHECK(free.modes->frequency[0] <= held.modes->frequency[0] * (1 + 1e-9));

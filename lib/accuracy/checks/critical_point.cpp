@@ -25,8 +25,8 @@ constexpr double along = 0.7;     // cosine of mode and path from which on it is
 // Negative eigenvalues of the accepted state, movements that break the symmetry included; -1 of a
 // singular tangent counts as one.
 int negative_eigenvalues(Run& run, SymmetryBreaking* breaking) {
-  int negative = std::abs(run.statics.signature().negative);
-  if (breaking) negative += std::abs(breaking->signature(run.statics).negative);
+  int negative = std::abs(run.increment.signature().negative);
+  if (breaking) negative += std::abs(breaking->signature(run.increment).negative);
   return negative;
 }
 
@@ -55,8 +55,9 @@ struct Softest {
 Softest softest_of(Run& run) {
   Softest softest;
   const Dofs& own = run.body.dofs();
-  const std::vector<SoftMode> modes = softest_modes(
-      run.body.pattern(), run.statics.constrained_tangent(), 1, run.statics.volume_gradients(), 1);
+  const std::vector<SoftMode> modes =
+      softest_modes(run.body.pattern(), run.increment.constrained_tangent(), 1,
+                    run.increment.volume_gradients(), 1);
   if (!modes.empty()) softest = {modes[0].eigenvalue, 0, own, on_all_dofs(own, modes[0].shape)};
   int kind = 0;
   for (Dofs& dofs : run.reduction.symmetry_breaking_dofs()) {
@@ -64,7 +65,7 @@ Softest softest_of(Run& run) {
     OtherTangent other = run.body.tangent_under(std::move(dofs));
     if (other.pattern.n == 0) continue;
     const std::vector<SoftMode> found =
-        softest_modes(other.pattern, run.statics.constrained_tangent(other), 1, {}, 1);
+        softest_modes(other.pattern, run.increment.constrained_tangent(other), 1, {}, 1);
     if (found.empty() || std::abs(found[0].eigenvalue) >= std::abs(softest.eigenvalue)) continue;
     softest = {found[0].eigenvalue, kind, other.dofs, on_all_dofs(other.dofs, found[0].shape)};
   }
@@ -131,7 +132,7 @@ std::vector<Vec3> on_whole_body(const Run& run, const Softest& softest) {
       record.u.push_back(displacement(softest.dofs, softest.u, i));
       record.reaction.push_back(Vec3::Zero());
     }
-    for (const RigidContact& contact : run.statics.contacts()) {
+    for (const RigidContact& contact : run.increment.contacts()) {
       ContactRecord& empty = record.contacts[contact.name];
       empty.r.assign(contact.nodes.size(), Vec3::Zero());
       empty.status.assign(contact.nodes.size(), 0);
@@ -251,7 +252,7 @@ std::optional<double> wave_direction(const Mesh& mesh, const std::vector<Vec3>& 
 
 bool driven_by_travel(const Run& run) {
   const bool forces = !run.scene.loads.empty();
-  const bool pushed = run.statics.controlled() != nullptr;
+  const bool pushed = run.increment.controlled() != nullptr;
   return !forces && !pushed;
 }
 
@@ -313,7 +314,7 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
   std::optional<SymmetryBreaking> breaking;
   if (with_breaking) breaking = breaking_of(run);
   const double t_now = run.t();
-  const BodyState now = run.statics.accepted();
+  const BodyState now = run.increment.accepted();
   StateOnPath low = first;
   StateOnPath earlier = before;
   StateOnPath high = last;
@@ -321,8 +322,8 @@ std::optional<CriticalPoint> locate_critical_point(Run& run, const StateOnPath& 
     const double t = 0.5 * (low.t + high.t);
     run.put_at(low.t, low.state, earlier.state);
     if (!run.solve_at(t).converged()) break;
-    run.statics.accept();
-    StateOnPath middle{t, run.statics.accepted(), 0};
+    run.increment.accept();
+    StateOnPath middle{t, run.increment.accepted(), 0};
     middle.negative = negative_eigenvalues(run, breaking ? &*breaking : nullptr);
     if (middle.negative > first.negative) {
       high = std::move(middle);
@@ -378,7 +379,7 @@ std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
   constexpr double gap = 0.3;   // share of the movement that is left where the path has no jump
   constexpr double faster = 5;  // than before: near a limit point a movement grows by less
   const double t_now = run.t();
-  const BodyState now = run.statics.accepted();
+  const BodyState now = run.increment.accepted();
   const auto distance = [](const StateOnPath& a, const StateOnPath& b) {
     return (a.state.u - b.state.u).norm();
   };
@@ -394,8 +395,8 @@ std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
       high.t = t;  // beyond the last equilibrium on this side
       continue;
     }
-    run.statics.accept();
-    StateOnPath middle{t, run.statics.accepted(), low.negative};
+    run.increment.accept();
+    StateOnPath middle{t, run.increment.accepted(), low.negative};
     // After the jump the body moves on, so a state right after it may be closer to `low`.
     const double moved = distance(middle, low);
     const double foreseen =
@@ -421,8 +422,8 @@ std::optional<CriticalPoint> locate_jump(Run& run, const StateOnPath& before,
 std::vector<VecX> modes_of(Run& run, int n) {
   const Dofs& dofs = run.body.dofs();
   std::vector<VecX> shapes;
-  for (const SoftMode& mode : softest_modes(run.body.pattern(), run.statics.constrained_tangent(),
-                                            n, run.statics.volume_gradients(), 1)) {
+  for (const SoftMode& mode : softest_modes(run.body.pattern(), run.increment.constrained_tangent(),
+                                            n, run.increment.volume_gradients(), 1)) {
     VecX u = on_all_dofs(dofs, mode.shape);
     double largest = 0;
     Vec3 leading = Vec3::Zero();
@@ -442,12 +443,12 @@ std::vector<VecX> modes_of(Run& run, int n) {
 
 std::optional<CriticalPoint> first_critical_point(Run& run) {
   std::optional<SymmetryBreaking> breaking = breaking_of(run);
-  StateOnPath before{0, run.statics.accepted(), 0};
+  StateOnPath before{0, run.increment.accepted(), 0};
   StateOnPath now = before;
   std::optional<StateOnPath> unstable;
   RunListener listener;
   listener.of_part = [&](StepRecord& record) {
-    StateOnPath next{record.t, run.statics.accepted(), 0};
+    StateOnPath next{record.t, run.increment.accepted(), 0};
     next.negative = negative_eigenvalues(run, breaking ? &*breaking : nullptr);
     if (next.negative > now.negative) {
       unstable = std::move(next);
@@ -459,7 +460,7 @@ std::optional<CriticalPoint> first_critical_point(Run& run) {
   };
   const RunEnd end = run.follow(listener);
   if (unstable) return locate_critical_point(run, before, now, *unstable, breaking.has_value());
-  if (end.at != RunEnd::At::no_equilibrium || run.statics.n_unstable() == 0) return std::nullopt;
+  if (end.at != RunEnd::At::no_equilibrium || run.increment.n_unstable() == 0) return std::nullopt;
   return critical_point_at_end(run, before, now, run.path.smallest);
 }
 

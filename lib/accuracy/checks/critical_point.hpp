@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "scene/run/run.hpp"
 
 namespace langer {

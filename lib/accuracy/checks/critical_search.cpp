@@ -69,7 +69,7 @@ void CriticalSearch::search_bifurcation(const RunEnd& end, bool breaking) {
   if (crossing_) {
     found_ =
         locate_critical_point(run_, crossing_->before, crossing_->first, crossing_->last, breaking);
-  } else if (end.at == RunEnd::At::no_equilibrium && run_.statics.n_unstable() > 0 && last_) {
+  } else if (end.at == RunEnd::At::no_equilibrium && run_.increment.n_unstable() > 0 && last_) {
     found_ = critical_point_at_end(run_, *before_, *last_, run_.path.smallest);
   }
 }

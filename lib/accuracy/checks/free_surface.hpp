@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer {
 

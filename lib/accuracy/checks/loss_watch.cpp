@@ -36,7 +36,7 @@ void LossWatch::take(const StepRecord& record) {
 void LossWatch::take_surface(const StepRecord& record, const BodyState& state, Run& run) {
   if (crease_) return;
   if (!surface_) surface_.emplace(run.body, run.reduction.scene().loads);
-  const auto found = surface_->weakest(run.body, state, run.statics.contacts());
+  const auto found = surface_->weakest(run.body, state, run.increment.contacts());
   if (found && found->margin < 0) {
     crease_ = point_between("crease", t_before_, record, found->place);
     move_to_root(*crease_, margin_before_, {record.t, found->margin});

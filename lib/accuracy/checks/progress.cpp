@@ -194,22 +194,22 @@ void Progress::failed(double t, const SolveReport& report) const {
 }
 
 // Totals of a run: steps, memory, and where the CPU time was spent.
-void Progress::finished(const PathReport& path, const Statics& statics, double files) const {
-  const Statics::Cost cost = statics.cost();
+void Progress::finished(const PathReport& path, const Increment& increment, double files) const {
+  const Increment::Cost cost = increment.cost();
   voice_.say("{} steps, {}, {} step cut-backs; {:.0f} MB", path.steps,
              iterations(path.iterations, path.again), path.cut_backs, 1e-6 * peak_bytes());
   voice_.detail(
       "CPU s: analysis {:.2f}, assembly {:.2f}, factor {:.2f} ({:.1f} GFLOP/s), solve {:.2f}, contact {:.2f}, "
       "files {:.2f}",
       cost.analysis, cost.assembly, cost.factor,
-      1e-9 * statics.size().flops * static_cast<double>(cost.factorizations) /
+      1e-9 * increment.size().flops * static_cast<double>(cost.factorizations) /
           std::max(cost.factor, 1e-9),
       cost.solve, cost.contact, files);
-  if (statics.n_indefinite() > 0)
+  if (increment.n_indefinite() > 0)
     voice_.detail(
         "{} tangents of iterations, before equilibrium, were not positive definite; this is no statement about "
         "the states found, which stability: each_step examines",
-        statics.n_indefinite());
+        increment.n_indefinite());
 }
 
 }  // namespace langer

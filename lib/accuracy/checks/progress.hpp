@@ -19,7 +19,7 @@ class Progress {
       double t,
       int equilibria);  // says so now and then: a jump may take longer than the steps before it
   void failed(double t, const SolveReport& report) const;
-  void finished(const PathReport& path, const Statics& statics,
+  void finished(const PathReport& path, const Increment& increment,
                 double files) const;  // files: CPU seconds of writing
 
  private:

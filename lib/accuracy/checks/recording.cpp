@@ -36,7 +36,7 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
     return "a run of this config continues from there); hold also a node on the indenter's axis "
            "and, against turning, one next to it, where contact does not: that begins anew";
   // Where the tangent has a negative direction under forces, no shorter increment passes.
-  if (run.statics.n_unstable() > 0 && !run.body.loads().empty()) {
+  if (run.increment.n_unstable() > 0 && !run.body.loads().empty()) {
     const double reached = std::floor(1e3 * path.t) / 1e3;
     return fmt::format(
         "the next run continues from there, but shorter increments do not pass a limit point); "
@@ -166,7 +166,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   if (end.at != RunEnd::At::no_equilibrium) return;
   std::string found =
       fmt::format("stopped at t = {:.6g} after {} steps: {}", end.path.t, n_steps(), end.path.why);
-  if (run_.statics.n_unstable() > 0)
+  if (run_.increment.n_unstable() > 0)
     found += "; the body itself gives way (tangent not positive definite)";
   if (watch_.critical()) found += "; " + watch_.critical()->words();
   if (!watch_.last_said().empty()) found += "; at the last state " + watch_.last_said();

@@ -40,7 +40,7 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
       search_(run) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
   if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
-    StaticsOptions options;
+    IncrementOptions options;
     options.threads = config.blas_threads;
     options.signs_from_cells = true;  // the elements of a homogeneous body deform alike
     mesh_.emplace(*mesh, std::vector<RigidContact>{}, options);
@@ -52,7 +52,7 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
 bool RunWatch::follows_states() const {
   return locate_ == LocateCritical::automatic && when_ != StabilityCheck::off &&
          when_ != StabilityCheck::last && !mesh_ && !run_.body.viscous() &&
-         run_.statics.bonds().none() && !run_.statics.iterative() && !run_.body.division();
+         run_.increment.bonds().none() && !run_.increment.iterative() && !run_.body.division();
 }
 
 // state: of an elastic body; else nullptr
@@ -110,7 +110,8 @@ void RunWatch::kept(const StepRecord& step) {
 }
 
 bool RunWatch::breaking_at(bool at_end) const {
-  if (run_.body.division() || run_.statics.iterative()) return false;  // no factor that shows signs
+  if (run_.body.division() || run_.increment.iterative())
+    return false;  // no factor that shows signs
   if (at_end) return true;
   return breaking_at_each_step_;
 }
@@ -124,7 +125,7 @@ int RunWatch::signatures_at_each_step() const {
 
 std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
   if (mesh_) return report_of_point(record);
-  StabilityReport report = stability_.look(run_.body, run_.statics);
+  StabilityReport report = stability_.look(run_.body, run_.increment);
   report.t = record.t;  // not that of the loads, where their factor is a result
   if (!breaking_at(at_end_of_path(record.t))) return report;
   if (!breaking_) {
@@ -132,7 +133,7 @@ std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
     if (kinds.empty()) return report;
     breaking_.emplace(run_.body, std::move(kinds));
   }
-  report.breaking = breaking_->signature(run_.statics);
+  report.breaking = breaking_->signature(run_.increment);
   return report;
 }
 
@@ -155,14 +156,14 @@ bool RunWatch::of_part(StepRecord& record) {
     // change from the step before
     int negative = std::abs(report->signature->negative);
     if (report->breaking && breaking_at(false)) negative += std::abs(report->breaking->negative);
-    const bool doubtful = run_.statics.n_indefinite() > n_indefinite_;
-    n_indefinite_ = run_.statics.n_indefinite();
-    search_.take({record.t, run_.statics.accepted(), negative}, doubtful);
+    const bool doubtful = run_.increment.n_indefinite() > n_indefinite_;
+    n_indefinite_ = run_.increment.n_indefinite();
+    search_.take({record.t, run_.increment.accepted(), negative}, doubtful);
   }
   if (on_unstable_ == OnUnstable::stop && !critical()) search_.search_jump();
   stability_.keep(*report);
   if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
-  take_losses(record, &run_.statics.accepted());
+  take_losses(record, &run_.increment.accepted());
   last_said_ = in_words(*report);
   if (on_unstable_ != OnUnstable::stop) return true;
   if (search_.jumped()) last_said_ = "reached by a jump past a limit point";
@@ -173,7 +174,7 @@ bool RunWatch::of_part(StepRecord& record) {
 
 std::optional<Error> RunWatch::of_whole(StepRecord& record, const SolveReport& report) {
   if (contact_) contact_->look(record);
-  result_.look(record.t, run_.statics.accepted().u, report);
+  result_.look(record.t, run_.increment.accepted().u, report);
   return result_.refusal();
 }
 
@@ -182,7 +183,7 @@ std::vector<std::string> RunWatch::warnings() const {
   if (critical()) lines.push_back("first critical point: " + critical()->words());
   if (search_.jumped() && critical()) lines.push_back(search_.jump_in_words());
   for (const TurningPoint& point : turning_.found()) lines.push_back(point.words());
-  if (run_.statics.gave_up_iterating())
+  if (run_.increment.gave_up_iterating())
     lines.push_back(
         "iterative solutions of the tangent did not converge: it was factorized in those increments (solver.newton.linear)");
   for (std::string& line : result_.warnings()) lines.push_back(std::move(line));

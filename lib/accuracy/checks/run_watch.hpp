@@ -37,7 +37,7 @@ class RunWatch {
   std::optional<Error> of_whole(StepRecord& record, const SolveReport& report);
 
   // The mesh of a homogeneous body, if its stability is checked; else nullptr.
-  const Statics* of_mesh() const {
+  const Increment* of_mesh() const {
     if (mesh_) return &*mesh_;
     return nullptr;
   }
@@ -79,8 +79,8 @@ class RunWatch {
   StabilityCheck when_;
   LocateCritical locate_;
   OnUnstable on_unstable_;
-  bool breaking_at_each_step_;   // movements that break the symmetry, not at the end only
-  std::optional<Statics> mesh_;  // of a homogeneous body, whose stability is that of its mesh
+  bool breaking_at_each_step_;     // movements that break the symmetry, not at the end only
+  std::optional<Increment> mesh_;  // of a homogeneous body, whose stability is that of its mesh
   std::optional<SymmetryBreaking> breaking_;
   StabilityWatch stability_;
   ResultWatch result_;

@@ -128,11 +128,11 @@ double StabilityWatch::stiffest_of_lowest(const Assembler& body, const BodyState
   return stiffness[refined - 1];
 }
 
-StabilityReport StabilityWatch::look(const Assembler& body, Statics& statics) {
+StabilityReport StabilityWatch::look(const Assembler& body, Increment& increment) {
   std::optional<Signature> signature;
-  if (!signs_) signs_ = !statics.iterative();
-  if (*signs_) signature = statics.signature();
-  return look(body, statics.accepted(), statics.reactions(), !statics.contacts().empty(),
+  if (!signs_) signs_ = !increment.iterative();
+  if (*signs_) signature = increment.signature();
+  return look(body, increment.accepted(), increment.reactions(), !increment.contacts().empty(),
               signature);
 }
 

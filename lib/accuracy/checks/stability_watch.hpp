@@ -1,7 +1,7 @@
 // Stability of an accepted state, of the equilibrium and of the material, and the range of the
 // tests that the material was fitted to.
 //   tangent        signs of the eigenvalues of the constrained tangent (Signature in
-//                  solve/statics.hpp): a negative one is an unstable equilibrium
+//                  solve/increment.hpp): a negative one is an unstable equilibrium
 //   material       smallest eigenvalue of the acoustic tensor over all Gauss points and directions
 //                  (material/ellipticity.hpp), first on a grid of directions (point_check.hpp),
 //                  then exactly where it is lowest; negative: strong ellipticity is lost
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
 #include "results/store/study_record.hpp"
@@ -67,7 +67,7 @@ class StabilityWatch {
   void resume(const StepRecord& last);
   // the accepted state, right after accept(); known: its signature, where it follows without a
   // factorization
-  StabilityReport look(const Assembler& body, Statics& statics);
+  StabilityReport look(const Assembler& body, Increment& increment);
   StabilityReport look(const Assembler& body, const BodyState& state, const VecX& reactions,
                        bool contacts, std::optional<Signature> signature);
   void add_to(StepRecord& record, const StabilityReport& report) const;

@@ -190,9 +190,9 @@ PathErrors in_one_layer(const SolveConfig& config, const Mesh& mesh) {
 PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& last,
                        const std::vector<Valued>& found) {
   need_known_kind(config, run);
-  if (!run.statics.bonds().none()) throw not_known("the tangent has no bonds of adhesion");
+  if (!run.increment.bonds().none()) throw not_known("the tangent has no bonds of adhesion");
   const Questions questions(run, last);
-  const StateTangent tangent(run.statics, run.statics.accepted());
+  const StateTangent tangent(run.increment, run.increment.accepted());
   std::vector<Asked> asked;
   std::vector<DualSolution> duals;
   bool none = true;

@@ -3,7 +3,7 @@
 // A force is the derivative of the energy by the movement that it works on. Its error is therefore
 // the derivative of the energy's error (accuracy/estimate/energy_error.hpp) along the body's answer
 // to that movement, the dual solution. Each costs one back-substitution with the factor of the last
-// state (Statics::movement):
+// state (StateTangent in solve/state_tangent.hpp):
 //   force, force_<contact>   the answer to a movement of the indenters along the force
 //   reaction_<set>           to a movement of the set along it
 //   displacement_<point>     to a force of 1 N there, along the displacement

@@ -26,7 +26,7 @@ double estimate_forecast(const SolveConfig& config, const std::optional<Material
   if (!by_refinement(config) || !has_numbers(config)) return 0;
   const double estimate = estimate_seconds(config, material, where);
   if (config.estimate == EstimateBy::refinement) return estimate;
-  if (estimate <= worth_it * forecast_of(config, run.body, run.statics, run.scene).seconds()) {
+  if (estimate <= worth_it * forecast_of(config, run.body, run.increment, run.scene).seconds()) {
     return estimate;
   }
   return 0;
@@ -136,7 +136,7 @@ std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& conf
   const double estimate = finer + estimate_forecast(config, material, where, run);
   MeshChecks checks = forecast_of_mesh(run, watch.of_mesh(), config.stability);
   checks.signatures = watch.signatures_at_each_step();
-  return dry_run(config, run.reduction.scene(), run.body, run.statics, checks, estimate,
+  return dry_run(config, run.reduction.scene(), run.body, run.increment, checks, estimate,
                  voice.quiet);
 }
 

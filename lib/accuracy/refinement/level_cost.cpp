@@ -25,7 +25,7 @@ LevelCost level_cost(const SolveConfig& config, const std::optional<Material>& m
 LevelCost level_cost(const SolveConfig& config, const Mesh& mesh,
                      const std::optional<Material>& material, const Run::Where& where) {
   Run run(mesh, config, material, where);
-  const Forecast f = forecast_of(config, run.body, run.statics, run.scene);
+  const Forecast f = forecast_of(config, run.body, run.increment, run.scene);
   double estimate = 0;
   if (config.estimate == EstimateBy::refinement) {
     estimate = estimate_seconds(config, material, where);

@@ -176,7 +176,7 @@ double ModelChoice::seconds_of_cuts(Run& run) const {
   // One hexahedron that stands for the body has no error of cells.
   if (!cells_ || run.reduction.mesh_of_point()) return 0;
   const bool has_error = config().estimate == EstimateBy::dual;
-  if (!has_error || forecast_of(config(), run.body, run.statics, run.scene).seconds() > quick) {
+  if (!has_error || forecast_of(config(), run.body, run.increment, run.scene).seconds() > quick) {
     voice_.say("accuracy: the time is that of the first mesh: finer ones are not forecast");
     return 0;
   }

@@ -68,7 +68,7 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
     : run_(run),
       moved_(moved_sets(config)),
       parameters_(config, run.mesh, run.scene, where),
-      last_(run.statics.accepted()),
+      last_(run.increment.accepted()),
       earlier_(last_) {
   for (std::size_t i = 0; i < parameters().size(); ++i) {
     if (!run.inertia || !parameters_.layer(i)) continue;
@@ -89,7 +89,7 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
 RunListener Sensitivity::along(RunListener listener) {
   if (parameters().empty()) return listener;
   if (last_.t > 0)
-    run_.statics
+    run_.increment
         .factorize_accepted();  // the increment after a kept step begins with it, as it would have
   const auto next_of_part = listener.of_part;
   listener.of_part = [this, next_of_part](StepRecord& record) {
@@ -132,7 +132,7 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
 // Rayleigh quotient of a mode is stationary, so its difference is that of the eigenvalue.
 void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>& density,
                                   ModesRecord& record) {
-  const BodyState now = run_.statics.accepted();
+  const BodyState now = run_.increment.accepted();
   const Scene& scene = run_.reduction.scene();
   const Mesh& mesh = run_.reduction.mesh();
   const std::vector<Dofs> breaking = run_.reduction.symmetry_breaking_dofs();
@@ -166,7 +166,7 @@ void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>&
     for (const Sample& sample : samples) {
       put_at(sample.by);
       const std::vector<double> found =
-          rayleigh_quotients(run_.body, run_.statics, density, breaking, modes.modes);
+          rayleigh_quotients(run_.body, run_.increment, density, breaking, modes.modes);
       for (std::size_t m = 0; m < found.size(); ++m) differences[m] += sample.weight * found[m];
     }
     std::vector<double> derivative;
@@ -188,7 +188,7 @@ void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>&
 // before.
 std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies) {
   Assembler& body = run_.body;
-  const VecX& u = run_.statics.accepted().u;
+  const VecX& u = run_.increment.accepted().u;
   const Scene& scene = run_.reduction.scene();
   std::vector<ParameterChange> out(parameters().size());
   energies.assign(out.size(), 0);
@@ -245,7 +245,7 @@ Assembler::Forces Sensitivity::change_by_thickness(std::size_t i) {
       steps.meshes.push_back(layer.with(run_.reduction.mesh(), layer.value() + at * steps.step));
     for (const Mesh& mesh : steps.meshes) steps.bodies.push_back(run_.reduction.assembler_on(mesh));
   }
-  const VecX& u = run_.statics.accepted().u;
+  const VecX& u = run_.increment.accepted().u;
   Assembler::Forces rate;
   rate.f = VecX::Zero(u.size());
   for (std::size_t k = 0; k < place.size(); ++k) {
@@ -262,7 +262,7 @@ Assembler::Forces Sensitivity::change_by_thickness(std::size_t i) {
 // Direct differentiation of one increment: K du/dp = -df/dp with the factorized tangent of the
 // accepted state, contact and history included. It follows the two last states.
 void Sensitivity::advance(const StepRecord& record) {
-  const StateTangent tangent(run_.statics, earlier_);
+  const StateTangent tangent(run_.increment, earlier_);
   std::vector<double> energies, of_movement;
   const std::vector<ParameterChange> all = changes(energies);
   std::vector<StateDerivative> d;
@@ -286,7 +286,7 @@ void Sensitivity::advance(const StepRecord& record) {
   for (std::size_t i = 0; i < d.size(); ++i)
     of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
   earlier_ = std::move(last_);
-  last_ = run_.statics.accepted();
+  last_ = run_.increment.accepted();
   d_earlier_ = std::move(d_last_);
   d_last_ = std::move(d);
 }
@@ -304,7 +304,7 @@ StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative&
   out.u = by_node(d.u);
   out.reaction = by_node(reactions);
   out.scalars["energy"] = energy;
-  const auto& contacts = run_.statics.contacts();
+  const auto& contacts = run_.increment.contacts();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     ContactRecord& contact = out.contacts[contacts[k].name] = record.contacts.at(contacts[k].name);
     contact.r = d.r[k];

@@ -8,7 +8,7 @@
 // increment. An indenter that turns about its axis of revolution keeps its shape; only the slip
 // changes. A point of its surface at x0 moves to
 //   x0 + (R - 1)(x0 - c0 - p),  p a point of the axis, R the rotation of the increment,
-// and the slip is measured from there (Statics::begin).
+// and the slip is measured from there (Increment::begin).
 // Reactions r are global vectors acting on the body; r_n = r.n >= 0.
 #pragma once
 

@@ -13,7 +13,7 @@ namespace {
 
 TangentFactor timed_factor(IncrementState& state) {
   const Stopwatch watch(state.cost.analysis);
-  const StaticsOptions& options = state.options;
+  const IncrementOptions& options = state.options;
   if (!state.surfaces.empty())
     return {state.body, state.contacts, state.surfaces.nodes(), options.threads};
   return {state.body, state.contacts, options.threads, options.contact_by, options.linear_by};

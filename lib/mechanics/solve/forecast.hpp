@@ -39,7 +39,7 @@ struct Forecast {
 double forecast_bytes(const LinearSolver::Size& size);
 
 // How corrections are found. reuses: with a tangent that is there already, too; in_tangent: contact
-// stands in it (Statics::contact_in_tangent); mixed: without a factor, none otherwise; in_motion:
+// stands in it (Increment::contact_in_tangent); mixed: without a factor, none otherwise; in_motion:
 // with inertia, in increments that the waves set; surfaces: CPU seconds of the contact of
 // deformable surfaces in an iteration
 struct CorrectionsBy {

@@ -34,7 +34,8 @@ BodyState at_rest(BodyState shape) {
 }
 
 IncrementState::IncrementState(Assembler& assembler, std::vector<RigidContact> rigid,
-                               const StaticsOptions& chosen, std::vector<SurfaceContact> deformable)
+                               const IncrementOptions& chosen,
+                               std::vector<SurfaceContact> deformable)
     : body(assembler),
       contacts(std::move(rigid)),
       surfaces(std::move(deformable)),

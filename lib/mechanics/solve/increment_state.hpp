@@ -8,7 +8,7 @@
 //   balance          is the trial state in equilibrium? (solve/balance.hpp)
 //   MotionStep       increments with inertia (solve/motion_step.hpp)
 //   TangentSigns     stability of the accepted state (solve/tangent_signs.hpp)
-//   Statics          puts them together (solve/statics.hpp)
+//   Increment        puts them together (solve/increment.hpp)
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@
 
 namespace langer {
 
-struct StaticsOptions {
+struct IncrementOptions {
   int threads = 1;  // of the BLAS
   // penetration allowed [mm]; none: 1e-11 of the largest extent of the body
   std::optional<double> gap_tolerance;
@@ -66,7 +66,7 @@ struct Correction {
 
 struct IncrementState {
   IncrementState(Assembler& assembler, std::vector<RigidContact> rigid,
-                 const StaticsOptions& chosen, std::vector<SurfaceContact> deformable);
+                 const IncrementOptions& chosen, std::vector<SurfaceContact> deformable);
   IncrementState(const IncrementState&) = delete;
   IncrementState& operator=(const IncrementState&) = delete;
 
@@ -110,7 +110,7 @@ struct IncrementState {
   Assembler& body;
   std::vector<RigidContact> contacts;
   mutable TouchingBodies surfaces;
-  StaticsOptions options;
+  IncrementOptions options;
   Bonds bonds;
   BodyScale scale;
   double gap_tolerance = 0;   // [mm]

@@ -20,26 +20,26 @@ double hardest_work(const std::vector<RigidContact>& contacts) {
 
 // Bonds come loose in parts, each an equilibrium: less damped while that is easy, more where it is
 // not.
-SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
+SolveReport let_go(Increment& increment, const std::function<SolveReport()>& solve,
                    const std::function<void(int)>& jumping) {
   constexpr int parts = 400;
   constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
-  const double work = hardest_work(statics.contacts());
+  const double work = hardest_work(increment.contacts());
   SolveReport all;
-  Statics::Trial last = statics.saved_trial();
+  Increment::Trial last = increment.saved_trial();
   double damping = work;
   for (int i = 0; i < parts && damping < stiffest * work && !interrupted(); ++i) {
     jumping(i);
-    statics.bonds().go_on();
-    statics.bonds().damp(damping);
+    increment.bonds().go_on();
+    increment.bonds().damp(damping);
     SolveReport part = solve();
     all.iterations += part.iterations;
     all.again += part.again;
     all.evaluations += part.evaluations;
-    const double loosened = statics.bonds().loosened();
+    const double loosened = increment.bonds().loosened();
     if (!part.converged() || (damping == 0 && loosened > settled)) {
-      statics.bonds().damp(std::numeric_limits<double>::infinity());  // as they were
-      statics.restore_trial(last);
+      increment.bonds().damp(std::numeric_limits<double>::infinity());  // as they were
+      increment.restore_trial(last);
       if (damping == 0) {
         damping = 0.1 * work;
       } else {
@@ -53,7 +53,7 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
       part.evaluations = all.evaluations;
       return part;
     }
-    last = statics.saved_trial();
+    last = increment.saved_trial();
     if (loosened < settled)
       damping *= 0.1;
     else if (part.iterations <= 6)
@@ -67,13 +67,13 @@ SolveReport let_go(Statics& statics, const std::function<SolveReport()>& solve,
 
 }  // namespace
 
-SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
+SolveReport adhesive_equilibrium(Increment& increment, double t, double shortest,
                                  const std::function<SolveReport()>& solve,
                                  const std::function<void(int)>& jumping) {
-  const double from = statics.accepted().t;
+  const double from = increment.accepted().t;
   SolveReport report = solve();
   double loosened = 0;
-  if (report.converged()) loosened = statics.bonds().loosened();
+  if (report.converged()) loosened = increment.bonds().loosened();
   if (report.converged() && loosened <= most_loosened) return report;
   if (t - from > shortest) {
     if (report.converged())
@@ -81,21 +81,21 @@ SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
     report.outcome = Outcome::not_converged;
     return report;
   }
-  statics.begin(t);
-  const double at_begin = statics.accepted().in_bonds.stored;
-  statics.bonds().damp(std::numeric_limits<double>::infinity());
+  increment.begin(t);
+  const double at_begin = increment.accepted().in_bonds.stored;
+  increment.bonds().damp(std::numeric_limits<double>::infinity());
   SolveReport held = solve();
   if (!held.converged()) return held;
-  const double before = statics.stored();
-  const VecX u = statics.trial();
-  SolveReport jump = let_go(statics, solve, jumping);
+  const double before = increment.stored();
+  const VecX u = increment.trial();
+  SolveReport jump = let_go(increment, solve, jumping);
   jump.iterations += report.iterations + held.iterations;
   jump.again += report.again + held.again;
   if (!jump.converged()) return jump;
-  const double of_loads = statics.work_of_loads(u);
-  statics.jumped(before - at_begin + of_loads,
-                 before - statics.stored() + of_loads -
-                     statics.bonds().dissipated_since(statics.accepted().bonds));
+  const double of_loads = increment.work_of_loads(u);
+  increment.jumped(before - at_begin + of_loads,
+                   before - increment.stored() + of_loads -
+                       increment.bonds().dissipated_since(increment.accepted().bonds));
   return jump;
 }
 

@@ -12,7 +12,7 @@
 #include <functional>
 
 #include "mechanics/nonlinear/newton.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer {
 
@@ -20,7 +20,7 @@ namespace langer {
 // which a jump may be. Not converged where a bond loses more than half of its intensity, or nothing
 // converges, in a longer one. jumping: told in a jump how many equilibria were looked for so far. A
 // signal ends it between two of them, not converged.
-SolveReport adhesive_equilibrium(Statics& statics, double t, double shortest,
+SolveReport adhesive_equilibrium(Increment& increment, double t, double shortest,
                                  const std::function<SolveReport()>& solve,
                                  const std::function<void(int)>& jumping);
 

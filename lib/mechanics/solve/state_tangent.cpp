@@ -29,10 +29,10 @@ ShapeRate shape_rate(const ParameterChange& change, std::size_t contact, const V
 
 // Linearises the accepted state once: the factor of its tangent, and the contact laws at the nodes
 // that touch. Every derivative then costs one solution.
-StateTangent::StateTangent(Statics& statics, const BodyState& earlier)
-    : increment_(statics.increment()),
-      factor_(statics.condensed_factor()),
-      solvable_(statics.factorize_accepted()) {
+StateTangent::StateTangent(Increment& increment, const BodyState& earlier)
+    : increment_(increment.state()),
+      factor_(increment.condensed_factor()),
+      solvable_(increment.factorize_accepted()) {
   if (!solvable_ || increment_.contacts.empty()) return;
   const BodyState& was = increment_.before;
   expected_ = was.u + increment_.trial.extrapolated * (was.u - earlier.u);

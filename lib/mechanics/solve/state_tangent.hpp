@@ -26,7 +26,7 @@
 
 #include "core/tensor/dense.hpp"
 #include "mechanics/solve/condensed_contact.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer {
 
@@ -57,8 +57,8 @@ struct ParameterChange {
 class StateTangent {
  public:
   // Of the state that was accepted last, right after accept(): assembles and factorizes there.
-  // `earlier`: the state before the one before it. Refers to statics.
-  StateTangent(Statics& statics, const BodyState& earlier);
+  // `earlier`: the state before the one before it. Refers to increment.
+  StateTangent(Increment& increment, const BodyState& earlier);
 
   // before, earlier: derivatives of the two states before. Nothing where the tangent is singular,
   // or the corrections end further from balance than `enough`, relative to what the change loads
@@ -67,7 +67,7 @@ class StateTangent {
                                             const StateDerivative& before,
                                             const StateDerivative& earlier,
                                             double enough = 1e-7) const;
-  // Of what the body bears at supports and contact nodes (Statics::reactions), one for each.
+  // Of what the body bears at supports and contact nodes (Increment::reactions), one for each.
   // energies: if given, takes what the movement adds to the derivative of the stored energy [N mm].
   std::vector<VecX> reactions(const std::vector<ParameterChange>& changes,
                               const std::vector<StateDerivative>& derivatives,

@@ -7,8 +7,8 @@ SymmetryBreaking::SymmetryBreaking(const Assembler& body, std::vector<Dofs> dofs
   for (Dofs& kind : dofs) tangents_.push_back(body.tangent_under(std::move(kind)));
 }
 
-Signature SymmetryBreaking::signature(Statics& statics) {
-  return statics.signature_under(tangents_, solvers_);
+Signature SymmetryBreaking::signature(Increment& increment) {
+  return increment.signature_under(tangents_, solvers_);
 }
 
 }  // namespace langer

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer {
 
@@ -18,7 +18,7 @@ class SymmetryBreaking {
   // dofs: of the reduced body, one for each kind of movement
   SymmetryBreaking(const Assembler& body, std::vector<Dofs> dofs);
   // of the accepted state, right after accept()
-  Signature signature(Statics& statics);
+  Signature signature(Increment& increment);
 
  private:
   std::vector<OtherTangent> tangents_;

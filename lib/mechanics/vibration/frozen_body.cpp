@@ -37,12 +37,12 @@ struct Touch {
 
 // Whether a node sticks follows from its reaction alone, so that a run that is continued at the end
 // of its path gives the same digits.
-std::vector<Touch> touches(const Statics& statics, const std::vector<Vec3>& X) {
+std::vector<Touch> touches(const Increment& increment, const std::vector<Vec3>& X) {
   constexpr double inside_the_cone = 1 - 1e-6;
   std::vector<Touch> out;
-  const BodyState& state = statics.accepted();
-  for (std::size_t k = 0; k < statics.contacts().size(); ++k) {
-    const RigidContact& contact = statics.contacts()[k];
+  const BodyState& state = increment.accepted();
+  for (std::size_t k = 0; k < increment.contacts().size(); ++k) {
+    const RigidContact& contact = increment.contacts()[k];
     const Vec3 c = indenter_displacement(contact, state.t, state.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
       const Vec3& r = state.r[k][i];
@@ -221,16 +221,17 @@ class Columns {
 
 }  // namespace
 
-FrozenBody::FrozenBody(Assembler& body, const Statics& statics, const std::vector<double>& density,
-                       Dofs dofs, bool symmetric, const std::optional<Driver>& driver)
+FrozenBody::FrozenBody(Assembler& body, const Increment& increment,
+                       const std::vector<double>& density, Dofs dofs, bool symmetric,
+                       const std::optional<Driver>& driver)
     : body_(body),
-      u_(statics.accepted().u),
+      u_(increment.accepted().u),
       tangent_(body.tangent_under(released(std::move(dofs), body.mesh(), driver))) {
-  const std::vector<Touch> closed = touches(statics, body.mesh().X);
+  const std::vector<Touch> closed = touches(increment, body.mesh().X);
   Columns columns(tangent_.dofs, closed);
 
-  for (std::size_t k = 0; k < statics.contacts().size(); ++k) {
-    const RigidContact& contact = statics.contacts()[k];
+  for (std::size_t k = 0; k < increment.contacts().size(); ++k) {
+    const RigidContact& contact = increment.contacts()[k];
     const int index = static_cast<int>(k);
     if (!symmetric || !contact.control || (driver && driver->contact == index)) continue;
     columns.add_indenter(closed, index, contact.control->along);

@@ -17,14 +17,14 @@
 #include <vector>
 
 #include "mechanics/assembly/assembler.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "mechanics/vibration/eigenpairs.hpp"
 
 namespace langer {
 
 // What oscillates: an indenter, or nodes of the body as a whole.
 struct Driver {
-  int contact = -1;           // index of Statics::contacts(), or
+  int contact = -1;           // index of Increment::contacts(), or
   std::vector<int> nodes;     // of the body that is solved, which have unknowns of their own
   Vec3 along = Vec3::Zero();  // of length 1
 };
@@ -35,8 +35,8 @@ class FrozenBody {
   // symmetry. symmetric: movements of the former kind, in which an indenter under force control
   // takes part. density: by body [t/mm3]. Refers to body.
   // Throws std::invalid_argument with a text for users where the driver cannot move as it should.
-  FrozenBody(Assembler& body, const Statics& statics, const std::vector<double>& density, Dofs dofs,
-             bool symmetric, const std::optional<Driver>& driver = {});
+  FrozenBody(Assembler& body, const Increment& increment, const std::vector<double>& density,
+             Dofs dofs, bool symmetric, const std::optional<Driver>& driver = {});
 
   bool driven() const { return driven_; }
   Eigen::Index size() const { return P_.cols(); }

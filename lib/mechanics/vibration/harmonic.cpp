@@ -14,10 +14,10 @@ Complex branch_modulus(const ViscousBranch& branch, double omega) {
 
 }  // namespace
 
-Harmonic::Harmonic(Assembler& body, const Statics& statics, const std::vector<double>& density,
+Harmonic::Harmonic(Assembler& body, const Increment& increment, const std::vector<double>& density,
                    const Driver& driver)
     : body_(body),
-      frozen_(body, statics, density, body.dofs(), true, driver),
+      frozen_(body, increment, density, body.dofs(), true, driver),
       viscous_(body.viscous()) {
   K_ = stiffness_with([](const ViscousBranch&) { return 0.0; });
 }

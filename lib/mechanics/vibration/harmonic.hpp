@@ -18,7 +18,7 @@ class Harmonic {
  public:
   // Right after accept() or restore(). density: by body [t/mm3]. Throws std::invalid_argument as
   // FrozenBody does.
-  Harmonic(Assembler& body, const Statics& statics, const std::vector<double>& density,
+  Harmonic(Assembler& body, const Increment& increment, const std::vector<double>& density,
            const Driver& driver);
 
   // At a frequency [Hz] above 0: of the whole body [N/mm]. Throws std::runtime_error at the

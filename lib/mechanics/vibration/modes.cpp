@@ -32,14 +32,14 @@ VecX with_largest_movement_1(VecX u) {
 
 }  // namespace
 
-Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double>& density,
+Modes modes_of(Assembler& body, const Increment& increment, const std::vector<double>& density,
                const std::vector<Dofs>& breaking, int count, int threads) {
   body.begin_small_movements([](const ViscousBranch&) { return 0.0; });
   Modes out;
   out.counted = true;
   for (std::size_t kind = 0; kind <= breaking.size(); ++kind) {
     const bool symmetric = kind == 0;
-    FrozenBody frozen(body, statics, density, symmetric ? body.dofs() : breaking[kind - 1],
+    FrozenBody frozen(body, increment, density, symmetric ? body.dofs() : breaking[kind - 1],
                       symmetric);
     if (frozen.size() == 0) continue;
     const Eigenpairs found = lowest_eigenpairs(frozen.stiffness(), frozen.mass(), count, threads);
@@ -55,7 +55,7 @@ Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double
   return out;
 }
 
-std::vector<double> rayleigh_quotients(Assembler& body, const Statics& statics,
+std::vector<double> rayleigh_quotients(Assembler& body, const Increment& increment,
                                        const std::vector<double>& density,
                                        const std::vector<Dofs>& breaking,
                                        const std::vector<Mode>& modes) {
@@ -67,7 +67,7 @@ std::vector<double> rayleigh_quotients(Assembler& body, const Statics& statics,
     };
     if (std::ranges::none_of(modes, is_of_kind)) continue;
     const bool symmetric = kind == 0;
-    FrozenBody frozen(body, statics, density, symmetric ? body.dofs() : breaking[kind - 1],
+    FrozenBody frozen(body, increment, density, symmetric ? body.dofs() : breaking[kind - 1],
                       symmetric);
     const SparseX stiffness = frozen.stiffness();
     for (std::size_t i = 0; i < modes.size(); ++i) {

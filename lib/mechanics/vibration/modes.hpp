@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mechanics/assembly/assembler.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 namespace langer {
 
@@ -35,12 +35,12 @@ struct Modes {
 // Branches of viscous materials answer as after all has relaxed.
 // breaking: constraints of movements that break the symmetry of a reduced body (ReducedScene).
 // density: by body [t/mm3]. Right after accept() or restore().
-Modes modes_of(Assembler& body, const Statics& statics, const std::vector<double>& density,
+Modes modes_of(Assembler& body, const Increment& increment, const std::vector<double>& density,
                const std::vector<Dofs>& breaking, int count, int threads = 1);
 
 // omega^2 of the shapes of modes of another state, about the accepted one. Next to a mode it is
 // stationary, so its change with the state or a number of the material is that of the mode.
-std::vector<double> rayleigh_quotients(Assembler& body, const Statics& statics,
+std::vector<double> rayleigh_quotients(Assembler& body, const Increment& increment,
                                        const std::vector<double>& density,
                                        const std::vector<Dofs>& breaking,
                                        const std::vector<Mode>& modes);

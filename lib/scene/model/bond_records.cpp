@@ -6,13 +6,13 @@ namespace langer {
 
 // Adds the adhesive forces, the damage of each bond and the energies to a record. Adhesion pulls at
 // the indenter too: its resultant belongs to the recorded force.
-void record_bonds(const Statics& statics, StepRecord& record) {
-  const Bonds& bonds = statics.bonds();
-  const BodyState& state = statics.accepted();
+void record_bonds(const Increment& increment, StepRecord& record) {
+  const Bonds& bonds = increment.bonds();
+  const BodyState& state = increment.accepted();
   double bonded = 0;
-  for (std::size_t k = 0; k < statics.contacts().size(); ++k) {
+  for (std::size_t k = 0; k < increment.contacts().size(); ++k) {
     if (!bonds.of(k)) continue;
-    const RigidContact& law = statics.contacts()[k];
+    const RigidContact& law = increment.contacts()[k];
     ContactRecord& contact = record.contacts.at(law.name);
     contact.adhesive = bonds.forces(k);
     for (const Bond& bond : state.bonds[k]) {
@@ -21,7 +21,7 @@ void record_bonds(const Statics& statics, StepRecord& record) {
     }
     const Vec3 sum = bonds.sum(k);
     record.force_ind -= sum;
-    for (int j = 0; j < 3 && statics.contacts().size() > 1; ++j)
+    for (int j = 0; j < 3 && increment.contacts().size() > 1; ++j)
       record.scalars.at("force_" + law.name + "_" + "xyz"[j]) -= sum[j];
     for (std::size_t i = 0; i < law.nodes.size(); ++i)
       bonded += law.area[i] * state.bonds[k][i].beta;

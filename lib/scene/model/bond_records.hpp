@@ -1,13 +1,13 @@
 // Bonds of contacts that adhere, and their energies, in the record of a step and from there.
 #pragma once
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/solution_file.hpp"
 
 namespace langer {
 
 // Adds what bonds bear to forces that the record has of the contact law alone.
-void record_bonds(const Statics& statics, StepRecord& record);
+void record_bonds(const Increment& increment, StepRecord& record);
 
 Bond bond_of(const ContactRecord& contact, std::size_t candidate);
 BondEnergy bond_energies(const StepRecord& step);

@@ -19,7 +19,7 @@
 #include <string>
 
 #include "mechanics/mesh/symmetry.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/solution_file.hpp"
 #include "scene/model/scene.hpp"
 #include "scene/model/solve_config.hpp"

@@ -25,9 +25,9 @@ std::string friction_in_words(double mu) {
 // CPU seconds of one evaluation of the mortar integrals with their derivatives, from fingertip,
 // liner, sliding_layers, fold and impact_two. A surface that touches itself, and bodies in motion,
 // are out of contact for most of the path.
-double seconds_of_surfaces(const Statics& statics, bool in_motion) {
+double seconds_of_surfaces(const Increment& increment, bool in_motion) {
   double seconds = 0;
-  for (const SurfaceContact& surface : statics.surfaces()) {
+  for (const SurfaceContact& surface : increment.surfaces()) {
     const double of_a_node = in_motion || surface.touches_itself() ? 1e-4 : 4e-4;
     seconds += of_a_node * static_cast<double>(surface.nodes.size());
   }
@@ -49,11 +49,11 @@ std::string duration_in_words(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-void check_memory(const Statics& statics, const Statics* beside, int threads) {
+void check_memory(const Increment& increment, const Increment* beside, int threads) {
   if (beside) check_memory(*beside, nullptr, threads);
   // OpenBLAS maps 134 MB a thread at its first product. If that fails, it tries again for ever.
   constexpr double blas = 135e6;
-  const double factor = statics.size().factor_bytes;
+  const double factor = increment.size().factor_bytes;
   const double mapped = factor + blas * threads;
   const bool fits = factor <= free_memory() && mapped <= free_address();
   if (fits) return;
@@ -72,18 +72,18 @@ void check_memory(const Statics& statics, const Statics* beside, int threads) {
           "a coarser or graded mesh, or a machine with more memory; --dry-run reports what a mesh takes"});
 }
 
-Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& statics,
+Forecast forecast_of(const SolveConfig& config, Assembler& body, const Increment& increment,
                      const Scene& scene) {
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   CorrectionsBy by;
   by.reuses = newton && newton->reuse_tangent;
-  by.in_tangent = statics.contact_in_tangent();
-  by.mixed = statics.mixed();
+  by.in_tangent = increment.contact_in_tangent();
+  by.mixed = increment.mixed();
   by.in_motion = config.in_motion();
-  by.surfaces = seconds_of_surfaces(statics, by.in_motion);
+  by.surfaces = seconds_of_surfaces(increment, by.in_motion);
   LoadPathOptions path = config.path;
   if (scene.motion_step) path = motion_path(scene, path);
-  Forecast out = forecast(body, statics.size(), statics.contacts(), path, scene.stops, by);
+  Forecast out = forecast(body, increment.size(), increment.contacts(), path, scene.stops, by);
   // A frequency takes the stiffness of the viscous branches and a complex factor: measured.
   if (config.harmonic) {
     out.files +=
@@ -95,10 +95,10 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Statics& 
 Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& material,
                      const Run::Where& where) {
   Run run(body_mesh(config, "", where), config, material, where);
-  return forecast_of(config, run.body, run.statics, run.scene);
+  return forecast_of(config, run.body, run.increment, run.scene);
 }
 
-MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck when) {
+MeshChecks forecast_of_mesh(Run& run, const Increment* examined, StabilityCheck when) {
   Assembler* mesh = run.reduction.mesh_of_point();
   if (!mesh) return {};
   int steps = 0;
@@ -123,12 +123,12 @@ MeshChecks forecast_of_mesh(Run& run, const Statics* examined, StabilityCheck wh
 }
 
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
-                             const Statics& statics, const MeshChecks& checks, double estimate,
+                             const Increment& increment, const MeshChecks& checks, double estimate,
                              bool quiet) {
   const double free = std::min(free_memory(), free_address());
   // what the program did so far a run does as well
   const double begin = cpu_seconds();
-  Forecast f = forecast_of(config, body, statics, scene);
+  Forecast f = forecast_of(config, body, increment, scene);
   f.files += begin + checks.seconds + checks.signatures * f.steps * (f.assembly + f.factor);
   f.bytes += checks.bytes;
   if (!quiet) {
@@ -163,12 +163,12 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
                                   c.nodes.size(), c.other.size(), friction_in_words(c.mu)));
     }
     if (!scene.contacts.empty())
-      line("",
-           statics.contact_in_tangent() ? "in the tangent itself" : "condensed to the candidates");
+      line("", increment.contact_in_tangent() ? "in the tangent itself"
+                                              : "condensed to the candidates");
     line("solver", std::holds_alternative<KinsolOptions>(config.solver)
                        ? "kinsol; counted as newton"
                        : "newton");
-    if (statics.iterative())
+    if (increment.iterative())
       line(
           "tangent",
           fmt::format(
@@ -195,7 +195,7 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
         fmt::format(
             "about {} of CPU; an iteration {:.2g} s: assembly {:.2g}, {} {:.2g}, solution {:.2g}{}",
             duration_in_words(f.seconds()), f.per_iteration() + f.contact, f.assembly,
-            statics.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
+            increment.iterative() ? "multigrid" : "factorization", f.factor, f.solving,
             contact_share));
     if (checks.seconds > 0)
       line("mesh", fmt::format("the states on the mesh take {} of CPU: balance {:.2g} s, points "

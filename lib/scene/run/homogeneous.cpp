@@ -267,7 +267,7 @@ std::optional<StepRecord> HomogeneousScene::whole(const StepRecord& one) const {
 
 SolveReport HomogeneousScene::on_mesh(double residual, double reactions, SolveReport report) const {
   Assessment found;
-  // as of Statics
+  // as Increment assesses a state (solve/balance.hpp)
   found.residual = residual;
   found.reference = reactions;
   found.floor = 3 * whole_->rounding_floor();

@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "mechanics/assembly/assembler.hpp"
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/solution_file.hpp"
 #include "scene/model/scene.hpp"
 

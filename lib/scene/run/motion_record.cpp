@@ -50,8 +50,8 @@ LoadPathOptions motion_path(const Scene& scene, LoadPathOptions path) {
   return path;
 }
 
-void record_motion(const Statics& statics, const Assembler& body, StepRecord& record) {
-  const MotionState& motion = statics.accepted().motion;
+void record_motion(const Increment& increment, const Assembler& body, StepRecord& record) {
+  const MotionState& motion = increment.accepted().motion;
   const auto nodal = [&](const VecX& all) {
     std::vector<Vec3> out;
     for (int i = 0; i < body.mesh().n_nodes(); ++i) out.push_back(all.segment<3>(3 * i));
@@ -67,14 +67,14 @@ void record_motion(const Statics& statics, const Assembler& body, StepRecord& re
   scalars["mechanical_energy"] = motion.total;
   scalars["damped_energy"] = motion.damped;
   scalars["energy_balance"] = motion.balance;
-  scalars["kinetic_energy_at_start"] = statics.inertia()->at_start_kinetic();
-  const Vec3 momentum = statics.inertia()->momentum(motion);
+  scalars["kinetic_energy_at_start"] = increment.inertia()->at_start_kinetic();
+  const Vec3 momentum = increment.inertia()->momentum(motion);
   for (int k = 0; k < 3; ++k) scalars[std::string("momentum_") + "xyz"[k]] = momentum[k];
-  for (const MovingBody& one : statics.inertia()->options().bodies) {
-    const Vec3 of_one = statics.inertia()->momentum(motion, one);
+  for (const MovingBody& one : increment.inertia()->options().bodies) {
+    const Vec3 of_one = increment.inertia()->momentum(motion, one);
     for (int k = 0; k < 3; ++k) scalars["momentum_" + one.name + "_" + "xyz"[k]] = of_one[k];
   }
-  if (statics.inertia()->options().travel_mass > 0) {
+  if (increment.inertia()->options().travel_mass > 0) {
     scalars[indenter_velocity] = motion.travel_v;
     scalars[indenter_acceleration] = motion.travel_a;
     scalars[indenter_carried] = motion.travel_b;

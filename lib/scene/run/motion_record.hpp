@@ -16,6 +16,6 @@ std::unique_ptr<Inertia> inertia_of(const Reduction& reduction, Assembler& body,
 LoadPathOptions motion_path(const Scene& scene, LoadPathOptions path);
 
 // Adds velocities, energies and momentum of the accepted state.
-void record_motion(const Statics& statics, const Assembler& body, StepRecord& record);
+void record_motion(const Increment& increment, const Assembler& body, StepRecord& record);
 
 }  // namespace langer

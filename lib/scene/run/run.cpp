@@ -16,8 +16,8 @@ namespace langer {
 
 namespace {
 
-StaticsOptions threads_of(const SolveConfig& config) {
-  StaticsOptions options;
+IncrementOptions threads_of(const SolveConfig& config) {
+  IncrementOptions options;
   options.threads = config.blas_threads;
   options.seconds = config.path.seconds.value_or(0);
   if (const auto* newton = std::get_if<NewtonOptions>(&config.solver))
@@ -28,12 +28,12 @@ StaticsOptions threads_of(const SolveConfig& config) {
   return options;
 }
 
-StaticsOptions with_seconds(StaticsOptions options, const LoadPathOptions& path) {
+IncrementOptions with_seconds(IncrementOptions options, const LoadPathOptions& path) {
   options.seconds = path.seconds.value_or(0);
   return options;
 }
 
-StaticsOptions with_inertia(StaticsOptions options, Inertia* inertia) {
+IncrementOptions with_inertia(IncrementOptions options, Inertia* inertia) {
   options.inertia = inertia;
   if (inertia) options.linear_by = LinearBy::direct;
   return options;
@@ -58,31 +58,31 @@ Run::Run(Mesh mesh_, const SolveConfig& config, const std::optional<Material>& m
       body(
           reduction.assembler(by_ranks ? divided(reduction, config, serial_reason) : std::nullopt)),
       inertia(inertia_of(reduction, body, config.path, where("dynamics"))),
-      statics(body, reduction.scene().contacts, with_inertia(threads_of(config), inertia.get()),
-              reduction.scene().surfaces),
+      increment(body, reduction.scene().contacts, with_inertia(threads_of(config), inertia.get()),
+                reduction.scene().surfaces),
       path(motion_path(scene, config.path)),
       solver(with_tolerance(reduction.solver(config.solver), inertia.get())) {}
 
 Run::Run(Mesh mesh_, Scene scene_, const std::optional<ReducedScene>& part,
-         const LoadPathOptions& path_, Solver solver_, const StaticsOptions& options)
+         const LoadPathOptions& path_, Solver solver_, const IncrementOptions& options)
     : mesh(std::move(mesh_)),
       scene(std::move(scene_)),
       reduction(mesh, scene, part),
       body(reduction.assembler()),
       inertia(inertia_of(reduction, body, path_, {})),
-      statics(body, reduction.scene().contacts,
-              with_inertia(with_seconds(options, path_), inertia.get()),
-              reduction.scene().surfaces),
+      increment(body, reduction.scene().contacts,
+                with_inertia(with_seconds(options, path_), inertia.get()),
+                reduction.scene().surfaces),
       path(motion_path(scene, path_)),
       solver(with_tolerance(std::move(solver_), inertia.get())) {}
 
 // Restores a recorded step and the one before it. Both are needed for the same continuation to the
 // last digit: the first trial state is extrapolated from them.
 void Run::resume(const StepRecord& last, const std::optional<StepRecord>& before) {
-  BodyState earlier = before ? state_from(*before) : at_rest(statics.accepted());
+  BodyState earlier = before ? state_from(*before) : at_rest(increment.accepted());
   increment_ = last.scalars.at("next_increment");
   resumed_ = Resumed{state_from(last), std::move(earlier), *increment_};
-  statics.restore(resumed_->now, &resumed_->before);
+  increment.restore(resumed_->now, &resumed_->before);
   t_ = last.t;
 }
 
@@ -97,19 +97,19 @@ void Run::begin(double t) {
   if (switch_ && std::abs(t_ - switch_->t) <= 1e-12) {
     begin_branch(t);
   } else if (path.arc_length) {
-    statics.begin_arc(path.arc_length->length * (t - t_));
+    increment.begin_arc(path.arc_length->length * (t - t_));
   } else {
-    statics.begin(t);
+    increment.begin(t);
   }
 }
 
 SolveReport Run::solve_at(double t) {
   begin(t);
-  return equilibrium_by(solver, statics);
+  return equilibrium_by(solver, increment);
 }
 
 void Run::put_at(double t, const BodyState& state, const BodyState& before) {
-  statics.restore(state, &before);
+  increment.restore(state, &before);
   t_ = t;
 }
 
@@ -120,26 +120,26 @@ void Run::put_at(double t, const BodyState& state, const BodyState& before) {
 void Run::begin_branch(double t) {
   if (path.arc_length) {
     const VecX towards = switch_->mode;
-    statics.begin_arc(path.arc_length->length * (t - t_), &towards);
+    increment.begin_arc(path.arc_length->length * (t - t_), &towards);
     return;
   }
-  const BodyState at = statics.accepted();
-  statics.begin_along(switch_->mode / switch_->mode.norm(),
-                      switch_->amplitude * switch_->mode.norm());
-  const SolveReport report = equilibrium_by(solver, statics);
-  const double found = statics.trial_t();
-  const VecX step = statics.trial() - at.u;
-  statics.begin(t);
+  const BodyState at = increment.accepted();
+  increment.begin_along(switch_->mode / switch_->mode.norm(),
+                        switch_->amplitude * switch_->mode.norm());
+  const SolveReport report = equilibrium_by(solver, increment);
+  const double found = increment.trial_t();
+  const VecX step = increment.trial() - at.u;
+  increment.begin(t);
   if (!report.converged() || !(found > switch_->t)) return;
   const VecX guess = at.u + std::sqrt((t - at.t) / (found - at.t)) * step;
-  statics.begin_from(guess);
+  increment.begin_from(guess);
 }
 
 // In a shared run only rank 0 reads the file; the other ranks receive its state.
 void Run::resume_all() {
-  if (shared_by() && share(*shared_by(), resumed_, statics.accepted()) && !shared_by()->first()) {
+  if (shared_by() && share(*shared_by(), resumed_, increment.accepted()) && !shared_by()->first()) {
     increment_ = resumed_->increment;
-    statics.restore(resumed_->now, &resumed_->before);
+    increment.restore(resumed_->now, &resumed_->before);
     t_ = resumed_->now.t;
   }
   resumed_.reset();
@@ -147,7 +147,7 @@ void Run::resume_all() {
 
 void Run::replay(const StepRecord& step) {
   if (!body.viscous()) return;
-  statics.replay(state_from(step));
+  increment.replay(state_from(step));
   reduction.replay(step);
 }
 
@@ -157,7 +157,7 @@ RunEnd::At Run::record_step(const RunListener& listener, double t, double taken,
   const bool at_end = at_end_of_path(t);
   if (!at_end && !listener.of_part && !listener.of_whole && !body.viscous())
     return RunEnd::At::the_end;
-  StepRecord record = step_record(statics, body, taken, next, report);
+  StepRecord record = step_record(increment, body, taken, next, report);
   if (path.seconds) record.scalars["time"] = t * *path.seconds;
   if (path.arc_length) {
     record.scalars["load_factor"] = record.t;
@@ -195,43 +195,43 @@ RunEnd Run::follow(const RunListener& listener) {
       return stopped() || too_slow;
     };
     const auto solve = [&] {
-      Problem problem = statics.problem();
+      Problem problem = increment.problem();
       problem.stopped = stopped_or_slow;
       if (listener.watched) problem = listener.watched(std::move(problem), t);
-      return equilibrium_by(solver, statics, problem);
+      return equilibrium_by(solver, increment, problem);
     };
     const auto jumping = [&](int equilibria) {
       if (listener.jumping) listener.jumping(t, equilibria);
     };
     SolveReport report;
-    if (statics.bonds().none()) {
+    if (increment.bonds().none()) {
       report = solve();
     } else {
-      report = adhesive_equilibrium(statics, t, path.shortest_with_a_jump(), solve, jumping);
+      report = adhesive_equilibrium(increment, t, path.shortest_with_a_jump(), solve, jumping);
     }
     if (!report.converged() && too_slow && signal == 0) {
       report.outcome = Outcome::not_converged;
       report.why = "the attempt takes longer than path.longest_attempt";
     }
     // In a longer increment the surface may pass an edge that it would not pass in shorter ones.
-    const double increment = t - statics.accepted().t;
-    if (report.converged() && increment > path.shortest_past_an_edge()) {
-      if (const std::optional<std::string> indenter = statics.edge_passed()) {
+    const double length = t - increment.accepted().t;
+    if (report.converged() && length > path.shortest_past_an_edge()) {
+      if (const std::optional<std::string> indenter = increment.edge_passed()) {
         report.outcome = Outcome::not_converged;
         report.why =
             "the surface passes an edge of the indenter \"" + *indenter + "\" within one increment";
       }
     }
-    if (report.converged() && body.viscous()) report.time_error = statics.time_error();
+    if (report.converged() && body.viscous()) report.time_error = increment.time_error();
     if (report.converged() && inertia && !scene.motion_step) {
       report.time_error = std::max(report.time_error,
-                                   path.time_error / scene.motion_error * statics.motion_error());
+                                   path.time_error / scene.motion_error * increment.motion_error());
     }
     if (!report.converged() && listener.failed && !interrupted()) listener.failed(t, report);
     return report;
   };
   const auto accepted = [&](double t, double taken, double next, const SolveReport& report) {
-    statics.accept();
+    increment.accept();
     t_ = t;
     const auto record = [&] {
       end.at = record_step(listener, t, taken, next, report, end);
@@ -243,7 +243,7 @@ RunEnd Run::follow(const RunListener& listener) {
   std::function<double(double)> cut;
   if (inertia)
     cut = [this](double t) {
-      return statics.end_at_touch(t);
+      return increment.end_at_touch(t);
     };
   std::vector<double> stops = reduction.scene().stops;
   if (switch_) stops.push_back(switch_->t);

@@ -44,7 +44,7 @@ class Run {
       const Where& where, bool at_a_point = false, bool by_ranks = false);
   // of a scene that is there, or what is left of it
   Run(Mesh mesh, Scene scene, const std::optional<ReducedScene>& part, const LoadPathOptions& path,
-      Solver solver, const StaticsOptions& options = {});
+      Solver solver, const IncrementOptions& options = {});
   Run(const Run&) = delete;  // its parts refer to each other
   Run& operator=(const Run&) = delete;
 
@@ -54,7 +54,7 @@ class Run {
   std::string serial_reason;         // where it is not divided among ranks that are there
   Assembler body;                    // balance of the part
   std::unique_ptr<Inertia> inertia;  // of a body in motion, else none
-  Statics statics;
+  Increment increment;
   LoadPathOptions path;
   Solver solver;
 

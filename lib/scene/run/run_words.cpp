@@ -51,15 +51,16 @@ std::string held_by_contact(const Voice& voice, const Run& run, const Run::Where
 }
 
 std::vector<Summary> summary_of(const Run& run, const RunEnd& end, int n_steps) {
-  const Statics::Cost cost = run.statics.cost();
-  std::vector<Summary> summary{{"steps", static_cast<double>(n_steps), "-"},
-                               {"iterations", static_cast<double>(end.path.iterations), "-"},
-                               {"cuts", static_cast<double>(end.path.cut_backs), "-"},
-                               {"indefinite", static_cast<double>(run.statics.n_indefinite()), "-"},
-                               {"cpu_assembly", cost.assembly, "s"},
-                               {"cpu_factor", cost.factor, "s"},
-                               {"cpu_solve", cost.solve, "s"},
-                               {"cpu_contact", cost.contact, "s"}};
+  const Increment::Cost cost = run.increment.cost();
+  std::vector<Summary> summary{
+      {"steps", static_cast<double>(n_steps), "-"},
+      {"iterations", static_cast<double>(end.path.iterations), "-"},
+      {"cuts", static_cast<double>(end.path.cut_backs), "-"},
+      {"indefinite", static_cast<double>(run.increment.n_indefinite()), "-"},
+      {"cpu_assembly", cost.assembly, "s"},
+      {"cpu_factor", cost.factor, "s"},
+      {"cpu_solve", cost.solve, "s"},
+      {"cpu_contact", cost.contact, "s"}};
   if (!run.scene.contacts.empty()) summary.push_back({"force", end.last.force_ind.norm(), "N"});
   for (const RigidContact& contact : run.scene.contacts)
     if (const auto found = end.last.scalars.find("force_" + contact.name);

@@ -125,9 +125,9 @@ Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step) {
 }
 
 // What is written of an accepted state: displacements, reactions, contact and energies.
-StepRecord step_record(const Statics& statics, const Assembler& body, double taken, double next,
+StepRecord step_record(const Increment& increment, const Assembler& body, double taken, double next,
                        const SolveReport& report) {
-  const BodyState& state = statics.accepted();
+  const BodyState& state = increment.accepted();
   StepRecord record;
   record.t = state.t;
   record.increment = taken;
@@ -137,7 +137,7 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
   } else {
     record.residual = report.residual;
   }
-  const VecX reactions = statics.reactions();
+  const VecX reactions = increment.reactions();
   for (int i = 0; i < body.mesh().n_nodes(); ++i) {
     record.u.push_back(state.u.segment<3>(3 * i));
     record.reaction.push_back(reactions.segment<3>(3 * i));
@@ -152,11 +152,11 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
     record.scalars[of_volume("load_pressure", body.loads(), i)] = state.pressures[i];
     record.scalars[of_volume("pumped_volume", body.loads(), i)] = body.swept_volume(i, state.u);
   }
-  if (!statics.surfaces().empty()) record_surfaces(statics, record);
-  if (statics.inertia()) record_motion(statics, body, record);
-  const auto& contacts = statics.contacts();
+  if (!increment.surfaces().empty()) record_surfaces(increment, record);
+  if (increment.inertia()) record_motion(increment, body, record);
+  const auto& contacts = increment.contacts();
   if (contacts.empty()) return record;
-  const auto defects = statics.defects();
+  const auto defects = increment.defects();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactDefect& d = defects[k];
     ContactRecord& contact = record.contacts[contacts[k].name];
@@ -167,15 +167,15 @@ StepRecord step_record(const Statics& statics, const Assembler& body, double tak
                                       {"cone", d.cone},
                                       {"complementarity", d.complementarity}})
       record.scalars[name] = std::max(record.scalars[name], value);
-    if (contacts.size() > 1 || !statics.surfaces().empty())
+    if (contacts.size() > 1 || !increment.surfaces().empty())
       for (int j = 0; j < 3; ++j)
         record.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = -d.force[j];
   }
-  if (const RigidContact* controlled = statics.controlled())
+  if (const RigidContact* controlled = increment.controlled())
     record.scalars["travel_" + controlled->name] = state.travel;
   record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
-  if (!statics.bonds().none()) record_bonds(statics, record);
+  if (!increment.bonds().none()) record_bonds(increment, record);
   return record;
 }
 

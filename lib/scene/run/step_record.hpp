@@ -2,7 +2,7 @@
 // continue from.
 #pragma once
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/provenance.hpp"
 #include "results/store/solution_file.hpp"
 #include "scene/model/scene.hpp"
@@ -23,7 +23,7 @@ VecX pressures_of(const StepRecord& step, const Loads& loads);  // of given volu
 Vec3 indenter_at(const RigidContact& indenter, const StepRecord& step);
 // of the nodes of a body that hang, what those they hang on have of u
 void hang(const Assembler& body, const VecX& u, std::vector<Vec3>& nodal);
-StepRecord step_record(const Statics& statics, const Assembler& body, double taken, double next,
+StepRecord step_record(const Increment& increment, const Assembler& body, double taken, double next,
                        const SolveReport& report);
 BodyState state_of(const StepRecord& record, const Scene& scene);
 

@@ -5,16 +5,16 @@
 
 namespace langer {
 
-void record_surfaces(const Statics& statics, StepRecord& record) {
-  const auto defects = statics.surface_defects();
-  const auto& averages = statics.surface_averages();
-  const std::vector<double> penetrations = statics.surface_penetrations();
-  const std::size_t first = statics.contacts().size();
+void record_surfaces(const Increment& increment, StepRecord& record) {
+  const auto defects = increment.surface_defects();
+  const auto& averages = increment.surface_averages();
+  const std::vector<double> penetrations = increment.surface_penetrations();
+  const std::size_t first = increment.contacts().size();
   for (std::size_t s = 0; s < defects.size(); ++s) {
     const ContactDefect& defect = defects[s];
-    const std::string& name = statics.surfaces()[s].name;
+    const std::string& name = increment.surfaces()[s].name;
     ContactRecord& contact = record.contacts[name];
-    contact.r = statics.accepted().r[first + s];
+    contact.r = increment.accepted().r[first + s];
     contact.gap = defect.gap;
     for (ContactStatus status : defect.status) contact.status.push_back(static_cast<int>(status));
     for (const auto& [measure, value] : {std::pair{"penetration", defect.penetration},

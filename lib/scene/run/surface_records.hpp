@@ -1,7 +1,7 @@
 // What a record says of deformable surfaces in contact.
 #pragma once
 
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 #include "results/store/solution_file.hpp"
 
 namespace langer {
@@ -12,6 +12,6 @@ namespace langer {
 //   contact_area_<name>      area of the nodes that touch, in the averages' own measure [mm^2]
 //   pressure_max_<name>      largest normal reaction over the area of its node [MPa]
 //   penetration_<name>       deepest node of either side inside the other [mm]
-void record_surfaces(const Statics& statics, StepRecord& record);
+void record_surfaces(const Increment& increment, StepRecord& record);
 
 }  // namespace langer

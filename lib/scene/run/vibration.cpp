@@ -118,7 +118,7 @@ std::vector<Vec3> whole_shape(const Run& run, const Mode& mode) {
 ModesRecord modes_record(const SolveConfig& config, Run& run, const std::vector<double>& density,
                          const ModesListener& listener) {
   const Modes found =
-      modes_of(run.body, run.statics, density, run.reduction.symmetry_breaking_dofs(),
+      modes_of(run.body, run.increment, density, run.reduction.symmetry_breaking_dofs(),
                config.modes->count, config.blas_threads);
   ModesRecord record;
   record.counted = found.counted;
@@ -145,7 +145,7 @@ HarmonicRecord harmonic_record(const SolveConfig& config, Run& run,
   if (config.harmonic->face) key = "harmonic.face";
   std::optional<Harmonic> harmonic;
   try {
-    harmonic.emplace(run.body, run.statics, density, driver);
+    harmonic.emplace(run.body, run.increment, density, driver);
   } catch (const std::invalid_argument& problem) {
     std::string hint;
     if (run.reduction.part()) hint = whole_body;

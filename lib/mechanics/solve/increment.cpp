@@ -1,4 +1,4 @@
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace langer {
 
-Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
-                 const StaticsOptions& options, std::vector<SurfaceContact> surfaces)
+Increment::Increment(Assembler& equilibrium, std::vector<RigidContact> contacts,
+                     const IncrementOptions& options, std::vector<SurfaceContact> surfaces)
     : state_(equilibrium, std::move(contacts), options, std::move(surfaces)),
       body_(state_.body),
       now_(state_.now),
@@ -24,13 +24,13 @@ Statics::Statics(Assembler& equilibrium, std::vector<RigidContact> contacts,
       signs_(state_, border_, factors_),
       motion_(state_) {}
 
-Statics::Cost Statics::cost() const {
+Increment::Cost Increment::cost() const {
   Cost cost = state_.cost;
   cost.factorizations = factors_.factor.counts().factorizations;
   return cost;
 }
 
-Problem Statics::problem() {
+Problem Increment::problem() {
   Problem p;
   p.size = state_.scale.length;
   p.least_force = state_.scale.least_force;
@@ -60,7 +60,7 @@ Problem Statics::problem() {
   return p;
 }
 
-std::optional<std::string> Statics::edge_passed() const {
+std::optional<std::string> Increment::edge_passed() const {
   for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
     const Vec3 begin = indenter_displacement(state_.contacts[k], now_.t, now_.travel);
     const Vec3 end = indenter_displacement(state_.contacts[k], trial_.t, trial_.travel);
@@ -71,21 +71,21 @@ std::optional<std::string> Statics::edge_passed() const {
   return std::nullopt;
 }
 
-const std::vector<std::vector<MortarNode>>& Statics::surface_averages() const {
+const std::vector<std::vector<MortarNode>>& Increment::surface_averages() const {
   return state_.surfaces.at(body_.mesh().X, trial_.u);
 }
 
-std::vector<double> Statics::surface_penetrations() const {
+std::vector<double> Increment::surface_penetrations() const {
   return state_.surfaces.penetrations(body_.mesh().X, trial_.u);
 }
 
-VecX Statics::reactions() const {
+VecX Increment::reactions() const {
   if (state_.options.inertia) return now_.motion.reactions;
   return trial_reactions(state_);
 }
 
 // Continues from a recorded state. The state before it serves the extrapolation.
-void Statics::restore(const BodyState& accepted, const BodyState* before) {
+void Increment::restore(const BodyState& accepted, const BodyState* before) {
   now_ = accepted;
   if (before) {
     before_ = *before;
@@ -109,7 +109,7 @@ void Statics::restore(const BodyState& accepted, const BodyState* before) {
   if (!state_.bonds.none()) begin_bonds();
 }
 
-double Statics::end_at_touch(double t) {
+double Increment::end_at_touch(double t) {
   constexpr double least = 0.05;  // of the increment: a shorter rest is not cut off
   if (!state_.may_touch()) return t;
   begin(t);
@@ -118,7 +118,7 @@ double Statics::end_at_touch(double t) {
   return now_.t + share * (t - now_.t);
 }
 
-void Statics::begin(double t) {
+void Increment::begin(double t) {
   border_.leave_arc();
   trial_.t = t;
   trial_.extrapolated = 0;
@@ -155,7 +155,7 @@ void Statics::begin(double t) {
 
 // Whether the last increment predicts this one: no prescribed movement, rotation or load has a
 // kink between them.
-bool Statics::continues_motion() const {
+bool Increment::continues_motion() const {
   for (const Prescribed& p : body_.dofs().prescribed)
     if (!p.in_proportion() && !p.keeps_rate(before_.t, now_.t, trial_.t)) return false;
   for (const RigidContact& contact : state_.contacts)
@@ -165,7 +165,7 @@ bool Statics::continues_motion() const {
 }
 
 // Starts the increment from u_n + s (u_n - u_{n-1}), unless an element would be inverted there.
-void Statics::extrapolate(double s) {
+void Increment::extrapolate(double s) {
   const VecX step = s * (now_.u - before_.u);
   if (!state_.options.extrapolate || !state_.admissible(now_.u + step)) return;
   body_.extrapolate_pressures(before_.u, s);
@@ -178,9 +178,9 @@ void Statics::extrapolate(double s) {
   trial_.travel += s * (now_.travel - before_.travel);
 }
 
-double Statics::time_error() { return body_.end_increment(trial_.u); }
+double Increment::time_error() { return body_.end_increment(trial_.u); }
 
-void Statics::replay(const BodyState& next) {
+void Increment::replay(const BodyState& next) {
   body_.begin_increment((next.t - now_.t) * state_.options.seconds);
   body_.end_increment(next.u);
   body_.accept_increment(now_.u, next.u);
@@ -194,7 +194,7 @@ void Statics::replay(const BodyState& next) {
   border_.take_pressures_of(now_);
 }
 
-void Statics::accept() {
+void Increment::accept() {
   if (state_.options.inertia) {
     motion_.accept();
     return;
@@ -207,7 +207,7 @@ void Statics::accept() {
 }
 
 // Residual (and tangent) at u, and the first condition of equilibrium that does not hold.
-Assessment Statics::assess(const VecX& u, bool with_tangent) {
+Assessment Increment::assess(const VecX& u, bool with_tangent) {
   const Stopwatch watch(state_.cost.assembly);
   Assessment out;
   const VecX du = state_.remaining_prescribed(u);
@@ -253,7 +253,7 @@ Assessment Statics::assess(const VecX& u, bool with_tangent) {
 
 // The balance of the free dofs with fixed contact reactions, for solvers that know no contact
 // (KINSOL).
-FreeBalance Statics::free_balance() {
+FreeBalance Increment::free_balance() {
   FreeBalance b;
   b.free = body_.dofs().free;
   b.residual = [this](const VecX& u, VecX& f) {
@@ -282,7 +282,7 @@ FreeBalance Statics::free_balance() {
   return b;
 }
 
-void Statics::begin_arc(double length, const VecX* towards) {
+void Increment::begin_arc(double length, const VecX* towards) {
   begin(now_.t);
   const Dofs& dofs = body_.dofs();
   const double nodes = (dofs.n_free() + static_cast<double>(dofs.prescribed.size())) / 3;
@@ -293,12 +293,12 @@ void Statics::begin_arc(double length, const VecX* towards) {
   follow(arc);
 }
 
-void Statics::begin_along(const VecX& mode, double amplitude) {
+void Increment::begin_along(const VecX& mode, double amplitude) {
   begin(now_.t);
   follow(Arc{amplitude, 0, mode, amplitude * mode});
 }
 
-void Statics::begin_from(const VecX& u) {
+void Increment::begin_from(const VecX& u) {
   const VecX step = u - now_.u;
   trial_.u = now_.u;
   body_.assemble(trial_.u, true);
@@ -309,7 +309,7 @@ void Statics::begin_from(const VecX& u) {
   trial_.u = u;
 }
 
-void Statics::restart() {
+void Increment::restart() {
   if (!border_.arc()) {
     begin(trial_.t);
     return;
@@ -321,7 +321,7 @@ void Statics::restart() {
 
 // In an increment that has begun. How far the indenter goes is not known before, so any candidate
 // may close.
-void Statics::follow(const Arc& arc) {
+void Increment::follow(const Arc& arc) {
   border_.begin(arc);
   if (state_.contacts.empty() && state_.surfaces.empty()) return;
   trial_.expected = trial_.u;
@@ -331,14 +331,14 @@ void Statics::follow(const Arc& arc) {
   factors_.take_level(factors_.factor.levels().all());
 }
 
-void Statics::begin_bonds() {
+void Increment::begin_bonds() {
   state_.bonds.begin(now_.bonds, (trial_.t - now_.t) * state_.options.seconds);
   state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
   jump_ = {};
 }
 
 // Called with what the last increment left in before_.
-void Statics::accept_bonds() {
+void Increment::accept_bonds() {
   const bool jumped = jump_.work_of_jumps != 0 || jump_.released != 0;
   now_.bonds =
       state_.bonds.after(trial_.r, before_.r, trial_.u, state_.indenters(trial_.t, trial_.travel));
@@ -353,7 +353,7 @@ void Statics::accept_bonds() {
   now_.in_bonds.stored = stored();
 }
 
-void Statics::restore_trial(const Trial& trial) {
+void Increment::restore_trial(const Trial& trial) {
   trial_.u = trial.u;
   trial_.r = state_.next.r = trial.r;
   factors_.K_is_current = factors_.serves = false;
@@ -362,9 +362,9 @@ void Statics::restore_trial(const Trial& trial) {
   state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
 }
 
-double Statics::stored() const { return body_.W() + state_.bonds.stored(); }
+double Increment::stored() const { return body_.W() + state_.bonds.stored(); }
 
-double Statics::work_of_loads(const VecX& from) const {
+double Increment::work_of_loads(const VecX& from) const {
   if (body_.loads().empty()) return 0;
   return body_.f_ext().dot(trial_.u - from);
 }

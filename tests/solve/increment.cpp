@@ -1,6 +1,6 @@
 // What an increment may be given and what it refuses: dead loads in proportion to t, elements that
 // are turned inside out.
-#include "mechanics/solve/statics.hpp"
+#include "mechanics/solve/increment.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,11 +19,11 @@ namespace {
 struct Held {
   Mesh mesh = test::cube(2);
   Assembler body;
-  Statics statics;
+  Increment increment;
   Held()
       : body(test::equilibrium(mesh, {test::stable(35, 1)}, Formulation::mean_dilatation,
                                held_below(mesh))),
-        statics(body, {}, {}) {}
+        increment(body, {}, {}) {}
   static Dofs held_below(const Mesh& mesh) {
     std::vector<Prescribed> held;
     for (int n : mesh.node_sets.at("y_min"))
@@ -42,10 +42,10 @@ TEST_CASE("a dead load grows in proportion to t: supports bear t times it") {
   const auto& top = sided.facet_sets.at("y_max");
   held.body.set_loads({held.mesh, {{top, load / nodal_areas(held.mesh, top).sum()}}});
   for (double t : {0.25, 0.5, 1.0}) {
-    held.statics.begin(t);
-    REQUIRE(newton(held.statics.problem(), held.statics.trial(), {}).converged());
-    held.statics.accept();
-    const VecX reactions = held.statics.reactions();
+    held.increment.begin(t);
+    REQUIRE(newton(held.increment.problem(), held.increment.trial(), {}).converged());
+    held.increment.accept();
+    const VecX reactions = held.increment.reactions();
     Vec3 sum = Vec3::Zero();
     for (int n : held.mesh.node_sets.at("y_min")) sum += reactions.segment<3>(3 * n);
     CHECK((sum + t * load).norm() <= 1e-6 * load.norm());
@@ -55,8 +55,8 @@ TEST_CASE("a dead load grows in proportion to t: supports bear t times it") {
 TEST_CASE(
     "a step that turns an element inside out, or nearly so, is not admissible; one that halves its volume is") {
   Held held;
-  held.statics.begin(0.5);
-  const Problem problem = held.statics.problem();
+  held.increment.begin(0.5);
+  const Problem problem = held.increment.problem();
   const auto by = [&](double share) {  // the upper cells, by this share of their height
     VecX u = VecX::Zero(3 * held.mesh.n_nodes());
     const auto& top = held.mesh.node_sets.at("y_max");
@@ -82,14 +82,14 @@ TEST_CASE(
   const Vec3 on_top = held.mesh.X[static_cast<std::size_t>(top[0])];
   const RigidContact rough{
       "rough", Plane{{on_top[0], on_top[1], on_top[2]}, {0, -1, 0}}, mu, top, {{1, Vec3(0, 0, 0)}}};
-  Statics statics(held.body, {rough}, {});
+  Increment increment(held.body, {rough}, {});
   // at rest the plane just touches: with these forces gap, slip and their work are 0
   const auto assessed = [&](double share, double r_n) {
-    BodyState state = statics.accepted();
+    BodyState state = increment.accepted();
     for (Vec3& r : state.r[0]) r = r_n * Vec3(share * mu, -1, 0);
-    statics.restore(state);
-    statics.begin(0.5);
-    return statics.problem().assess(statics.trial(), false);
+    increment.restore(state);
+    increment.begin(0.5);
+    return increment.problem().assess(increment.trial(), false);
   };
   for (double share : {0.0, 0.5, 1 - 1e-7, 1.0}) CHECK(assessed(share, 0.01).others);
   for (double share : {1 + 1e-7, 1 + 1e-4, 1.5}) {

@@ -1,7 +1,9 @@
-// Equilibrium of one body with supports and contacts, at a value of the path parameter t.
+// One increment of a body with supports and contacts: from the accepted state at a value of the
+// path parameter t to the next equilibrium.
 //
-// Statics holds the last accepted state and the trial state of an increment. The nonlinear solvers
-// get their Problem from it. Each correction solves the linearised balance
+// An Increment holds the last accepted state and the trial state. After accept() the same object
+// begins the next increment. The nonlinear solvers get their Problem from it. Each correction
+// solves the linearised balance
 //   K dx = -(F_int - F_ext - R) - K_fp du_p
 // with the contact reactions R from the contact law (condensed bipotential), [A23] eqs 24-32.
 // Prescribed displacements du_p and the movement of the indenter enter this linear system first
@@ -33,10 +35,10 @@
 
 namespace langer {
 
-class Statics {
+class Increment {
  public:
-  Statics(Assembler& equilibrium, std::vector<RigidContact> contacts, const StaticsOptions& options,
-          std::vector<SurfaceContact> surfaces = {});
+  Increment(Assembler& equilibrium, std::vector<RigidContact> contacts,
+            const IncrementOptions& options, std::vector<SurfaceContact> surfaces = {});
 
   void begin(double t);  // starts an increment to t: predicts its trial state
   // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
@@ -108,7 +110,7 @@ class Statics {
   using Cost = SolveCost;
   Cost cost() const;
   // The accepted state with the tangent there, for derivatives (solve/state_tangent.hpp).
-  const IncrementState& increment() const { return state_; }
+  const IncrementState& state() const { return state_; }
   bool factorize_accepted() { return factors_.factorize_accepted(); }
   TangentFactor& condensed_factor() { return factors_.condensed_factor(); }
   const LinearSolver& linear() const { return factors_.factor.linear(); }  // none where iterative()
