@@ -129,7 +129,7 @@ Card abaqus(const Material& m) {
   if (card.exists) {
     card.text = fmt::format("** {}\n*MATERIAL, NAME=LANGER\n{}", units, law);
   } else {
-    card.text = "** " + note("Abaqus", lacking.what, lacking.nearest) + "\n";
+    card.text = fmt::format("** {}\n** {}\n", units, note("Abaqus", lacking.what, lacking.nearest));
   }
   return card;
 }
@@ -152,7 +152,7 @@ Card calculix(const Material& m) {
   const ForeignLaw law = calculix_material(m, in_frame, "LANGER");
   Card card{"CalculiX", "calculix.inp", "", !law.text.empty()};
   if (!card.exists) {
-    card.text = "** " + note("CalculiX", law.lacks, law.nearest) + "\n";
+    card.text = fmt::format("** {}\n** {}\n", units, note("CalculiX", law.lacks, law.nearest));
     return card;
   }
   const bool other_form = only<ArrudaBoyce>(m) && of_other_form(m.volume);
@@ -265,7 +265,7 @@ Card ansys(const Material& m) {
   if (card.exists) {
     card.text = fmt::format("! {}\n{}", units, law);
   } else {
-    card.text = "! " + note("ANSYS", lacking.what, lacking.nearest) + "\n";
+    card.text = fmt::format("! {}\n! {}\n", units, note("ANSYS", lacking.what, lacking.nearest));
   }
   return card;
 }
@@ -273,10 +273,13 @@ Card ansys(const Material& m) {
 // The text of febio_material(), or its note.
 Card febio(const Material& m) {
   const ForeignLaw law = febio_material(m, fibre_directions(m), 1, "langer");
-  if (law.text.empty())
+  const std::string first_line = fmt::format("<!-- {}; FEBio 4 -->\n", units);
+  if (law.text.empty()) {
     return {"FEBio", "febio.xml",
-            fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)), false};
-  return {"FEBio", "febio.xml", fmt::format("<!-- {}; FEBio 4 -->\n{}", units, law.text), true};
+            first_line + fmt::format("<!-- {} -->\n", note("FEBio", law.lacks, law.nearest)),
+            false};
+  }
+  return {"FEBio", "febio.xml", first_line + law.text, true};
 }
 
 // The instantaneous material right after a step, to which the branches of ANSYS refer: all moduli
