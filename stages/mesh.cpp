@@ -36,16 +36,10 @@ void check_exports(const Job<MeshConfig>& job) {
 // Makes the mesh, prints its quality and sets, and exports it to other formats if the config asks.
 std::vector<Summary> mesh(const Job<MeshConfig>& job) {
   check_exports(job);
-  const auto [mesh, quality, notes] = make_mesh(job.config, job.where);
-  // What was read otherwise than its file says may change a result; where the grid lines of a block
-  // are is a detail.
-  for (const std::string& note : notes) {
-    if (std::holds_alternative<FromFile>(job.config.geometry)) {
-      job.say("{}", note);
-    } else {
-      job.detail("{}", note);
-    }
-  }
+  const auto [mesh, quality, notes, of_file] = make_mesh(job.config, job.where);
+  for (const std::string& note : notes) job.detail("{}", note);
+  // What was read otherwise than its file says may change a result.
+  for (const std::string& note : of_file) job.say("{}", note);
   job.say("{} nodes, {} cells {}, {:.6g} mm^3", mesh.n_nodes(), mesh.n_cells(),
           names(mesh.type)[static_cast<int>(mesh.type)], quality.volume);
   job.detail("edges {:.3g} to {:.3g} mm, aspect up to {:.3g}, scaled Jacobian at least {:.3g}",

@@ -18,6 +18,10 @@
 
 namespace langer {
 
+// Names of sets and bodies become parts of keys and of HDF5 paths: '_' in place of blanks, dots and
+// slashes, which would split those.
+std::string usable_name(std::string name);
+
 enum class MeshFormat { msh, inp };
 constexpr auto names(MeshFormat) { return std::array{"msh", "inp"}; }
 

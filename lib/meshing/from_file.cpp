@@ -19,12 +19,8 @@ std::string kind_of(const std::string& path) {
   return lower_case(path.substr(dot + 1));
 }
 
-// Names of sets and bodies become parts of keys and of HDF5 paths: letters that would split those
-// are replaced.
 std::string tame(const std::string& name, std::vector<std::string>& notes) {
-  std::string s = name;
-  for (char& c : s)
-    if (c == ' ' || c == '\t' || c == '/' || c == '.') c = '_';
+  const std::string s = usable_name(name);
   if (s != name) notes.push_back(fmt::format("\"{}\" is called {} here", name, s));
   return s;
 }
@@ -37,6 +33,13 @@ void tame_names(Sets& sets, std::vector<std::string>& notes) {
 }
 
 }  // namespace
+
+std::string usable_name(std::string name) {
+  for (char& c : name) {
+    if (c == ' ' || c == '\t' || c == '/' || c == '.') c = '_';
+  }
+  return name;
+}
 
 bool FromFile::is_inp() const { return kind_of(file.path) == "inp"; }
 

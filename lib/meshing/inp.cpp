@@ -116,7 +116,7 @@ class Builder {
   std::vector<std::pair<long long, Place>> origin_;  // of each cell: its number, its line
   std::vector<bool> reversed_;                       // cells that were turned
   Mirror mirror_;                                    // filled where a cell is
-  std::set<std::pair<const InpScope*, std::string>> as_bodies_;  // element sets
+  std::map<std::pair<const InpScope*, std::string>, std::string> body_names_;  // of element sets
 
   // ---- nodes and cells
 
@@ -298,8 +298,9 @@ class Builder {
     for (std::size_t i = 0; i < placed_.size(); ++i) {
       for (const std::string& key : keys[i]) {
         const InpSet& set = placed_[i].scope->element_sets.at(key);
-        as_bodies_.insert({placed_[i].scope, key});
-        add_body(names.of(placed_[i], set.name), members(placed_[i], set, &Placed::cell_at));
+        const std::string name = names.of(placed_[i], set.name);
+        body_names_[{placed_[i].scope, key}] = name;
+        add_body(name, members(placed_[i], set, &Placed::cell_at));
       }
     }
     name_cells_without_body();
@@ -609,12 +610,45 @@ class Builder {
 
   // ---- what is not used
 
+  // Materials of bodies as text for a solve config; the names of all others are left out.
+  void add_materials(std::set<std::string>& left_out) {
+    std::set<std::string> used;
+    for (const Placed& one : placed_) {
+      for (const auto& [set, material] : one.scope->material_of) {
+        const auto found = model_.materials.find(upper_case(material));
+        if (found == model_.materials.end()) continue;
+        used.insert(found->first);
+        const MaterialKeys text = material_keys(found->second);
+        const auto body_name = body_names_.find({one.scope, set});
+        if (body_name == body_names_.end()) continue;
+        const std::string body = usable_name(body_name->second);
+        if (text.keys.empty()) {
+          notes_.push_back(
+              fmt::format("left out: the material {} of {}: {}", material, body, text.remark));
+          continue;
+        }
+        std::string keys = fmt::format("material: {{{}}}", text.keys);
+        if (mesh_.bodies.size() > 1) keys = fmt::format("materials: {{{}: {{{}}}}}", body, keys);
+        std::string note = fmt::format(
+            "the material {} of {} for a solve config, with the numbers of the file: {}", material,
+            body, keys);
+        if (!text.remark.empty()) note += fmt::format("; {}", text.remark);
+        notes_.push_back(note);
+      }
+    }
+    for (const auto& [key, material] : model_.materials) {
+      if (used.count(key)) continue;
+      left_out.insert("*MATERIAL");
+      if (!material.hyperelastic.word.empty()) left_out.insert("*HYPERELASTIC");
+    }
+  }
+
   void add_notes() {
     std::vector<std::string> others;
     for (const Placed& one : placed_) {
       // Without physical groups Gmsh's own names stay; with them they say nothing more.
       for (const auto& [key, set] : one.scope->element_sets) {
-        const bool used = as_bodies_.count({one.scope, key}) > 0 || set.internal ||
+        const bool used = body_names_.count({one.scope, key}) > 0 || set.internal ||
                           mesh_.facet_sets.count(set.name) > 0 || named_by_gmsh(set.name);
         if (!used) others.push_back(set.name);
       }
@@ -624,6 +658,7 @@ class Builder {
           fmt::format("left out, as they are no bodies: element sets {}", fmt::join(others, ", ")));
     }
     std::set<std::string> left_out = model_.left_out;
+    add_materials(left_out);
     for (const Placed& one : placed_) {
       const InpScope& scope = *one.scope;
       if (scope.oriented.empty() && !scope.orientations.empty()) left_out.insert("*ORIENTATION");

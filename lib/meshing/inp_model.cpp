@@ -68,7 +68,8 @@ class ModelReader {
   std::map<std::string, int> instance_at_;  // by name in upper case
   std::size_t entries_ = 0;                 // of all instances
   Block block_ = Block::model;
-  std::string part_;  // key of the one that is open
+  std::string part_;      // key of the one that is open
+  std::string material_;  // likewise
   InpCard card_;
   std::string type_;                // of the cells, as the file calls it first
   int nodes_of_element_ = 0;        // that the open *ELEMENT card expects
@@ -112,6 +113,10 @@ class ModelReader {
       begin_section();
     } else if (word == "ORIENTATION") {
       begin_orientation();
+    } else if (word == "MATERIAL") {
+      begin_material();
+    } else if (word == "HYPERELASTIC") {
+      begin_hyperelastic();
     } else if (word != "NODE") {
       static const std::set<std::string> without_content{"HEADING", "ASSEMBLY", "END ASSEMBLY",
                                                          "PREPRINT"};
@@ -124,6 +129,26 @@ class ModelReader {
     add_once(scope().sections, set);
     const std::string orientation = card_.value("ORIENTATION");
     if (!orientation.empty()) scope().oriented[set] = orientation;
+    const std::string material = card_.value("MATERIAL");
+    if (!material.empty()) scope().material_of[set] = material;
+  }
+
+  // A mesh has no material: the text of a note is made of it (inp_material.hpp).
+  void begin_material() {
+    const std::string name = card_.value("NAME");
+    material_ = upper_case(name);
+    model_.materials[material_] = InpMaterial{name, {}, {}, {}};
+  }
+
+  void begin_hyperelastic() {
+    const auto found = model_.materials.find(material_);
+    if (found == model_.materials.end()) {
+      model_.left_out.insert("*HYPERELASTIC");
+      card_.word = "";
+      return;
+    }
+    found->second.hyperelastic = card_;
+    found->second.numbers.clear();
   }
 
   // What is not understood here is no error: only `frames: file` needs it.
@@ -258,6 +283,8 @@ class ModelReader {
       read_surface(line);
     } else if (word == "ORIENTATION") {
       read_orientation(line);
+    } else if (word == "HYPERELASTIC") {
+      read_hyperelastic(model_.materials.at(material_), line);
     } else if (word == "INSTANCE") {
       read_motion(line);
     }
@@ -521,7 +548,7 @@ class ModelReader {
 
 std::size_t InpScope::size() const {
   std::size_t n = nodes.size() + cells.size() + faces.size();
-  n += orientations.size() + oriented.size();
+  n += orientations.size() + oriented.size() + material_of.size();
   n += members_of(node_sets) + members_of(element_sets);
   for (const auto& [key, surface] : surfaces) n += 1 + surface.sides.size();
   return n;

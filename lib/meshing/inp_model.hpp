@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/tensor/types.hpp"
 #include "meshing/inp_cells.hpp"
+#include "meshing/inp_material.hpp"
 #include "meshing/inp_scanner.hpp"
 
 namespace langer {
@@ -73,7 +74,8 @@ struct InpScope {
   std::vector<std::string> sections;                   // keys of element sets of *SOLID SECTION
   std::vector<std::string> cells_by_card;              // and of those of *ELEMENT
   std::map<std::string, InpOrientation> orientations;  // by name in upper case
-  std::map<std::string, std::string> oriented;  // element sets of sections, their ORIENTATION
+  std::map<std::string, std::string> oriented;     // element sets of sections, their ORIENTATION
+  std::map<std::string, std::string> material_of;  // element sets of sections, their MATERIAL
 
   std::size_t size() const;  // entries of all these
 };
@@ -91,10 +93,11 @@ struct InpInstance {
 };
 
 struct InpModel {
-  InpScope scope;                      // a flat file, or the assembly
-  std::vector<InpInstance> instances;  // also parts, where a file has no instance at all
-  InpCell kind;                        // of all cells
-  std::set<std::string> left_out;      // cards, kinds of elements and parts
+  InpScope scope;                                // a flat file, or the assembly
+  std::vector<InpInstance> instances;            // also parts, where a file has no instance at all
+  InpCell kind;                                  // of all cells
+  std::map<std::string, InpMaterial> materials;  // by name in upper case
+  std::set<std::string> left_out;                // cards, kinds of elements and parts
 };
 
 // Throws Failure(input) with the line.

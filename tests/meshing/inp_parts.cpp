@@ -576,4 +576,105 @@ TEST_CASE("shells on the surface mark its facets, and that their stiffness is lo
   CHECK(notes == std::vector<std::string>{"left out, as they are no mesh: elements S4R"});
 }
 
+namespace {
+
+// The one note of a cube with this *HYPERELASTIC and its data lines.
+std::string note_of_material(const std::string& parameters, const std::string& data) {
+  std::vector<std::string> notes;
+  read(cube() + "*Elset, elset=all\n1\n*Solid section, elset=all, material=M\n" +
+           "*Material, name=m\n*Hyperelastic" + parameters + "\n" + data,
+       notes);
+  REQUIRE(notes.size() == 1);
+  return notes.front();
+}
+
+std::string keys_of_material(const std::string& parameters, const std::string& data) {
+  const std::string note = note_of_material(parameters, data);
+  const std::string before =
+      "the material M of all for a solve config, with the numbers of the file: material: ";
+  CAPTURE(note);
+  REQUIRE(note.starts_with(before));
+  return note.substr(before.size());
+}
+
+}  // namespace
+
+TEST_CASE("hyperelastic materials of an .inp are text for a solve config") {
+  const auto check = [](const std::string& parameters, const std::string& data,
+                        const std::string& matrix, const std::string& volume) {
+    CHECK(keys_of_material(parameters, data) ==
+          "{matrix: {" + matrix + "}, volume: {" + volume + "}}");
+  };
+  check(", NEO HOOKE", "0.05, 0.01\n", "neo_hooke: {a1: 0.05}", "quadratic: {d: 0.01}");
+  check(", NEO HOOKE, moduli=long term", "0.05, 0.01\n", "neo_hooke: {a1: 0.05}",
+        "quadratic: {d: 0.01}");
+  check(", neo hooke", "0.05, 0.01, 37.\n", "neo_hooke: {a1: 0.05}", "quadratic: {d: 0.01}");
+  check(", YEOH", "0.05, 0.02, -1e-3, 0.01, 0., 0.\n", "yeoh: {a1: 0.05, a2: 0.02, a3: -0.001}",
+        "quadratic: {d: 0.01}");
+  check(", MOONEY-RIVLIN", "0.05, 0.01, 0.5,\n", "mooney_rivlin: {c10: 0.05, c01: 0.01}",
+        "quadratic: {d: 0.5}");
+  check(", N=2, REDUCED POLYNOMIAL", "1, 2, 0.5, 0\n", "yeoh: {a1: 1, a2: 2, a3: 0}",
+        "quadratic: {d: 0.5}");
+  check("", "0.05, 0.01, 0.5\n", "mooney_rivlin: {c10: 0.05, c01: 0.01}", "quadratic: {d: 0.5}");
+  check(", POLYNOMIAL, N=2", "1, 2, 3, 0, 5, 0.5, 0\n",
+        "yeoh: {a1: 1, a2: 3, a3: 0}, yeoh_I2: {b1: 2, b2: 5, b3: 0}", "quadratic: {d: 0.5}");
+  // the twelve numbers of N = 3 stand in two lines
+  check(", N=3", "1, 2, 3, 0, 5, 6, 0, 0\n9, 0.5, 0, 0\n",
+        "yeoh: {a1: 1, a2: 3, a3: 6}, yeoh_I2: {b1: 2, b2: 5, b3: 9}", "quadratic: {d: 0.5}");
+  check(", OGDEN, N=2", "0.05, 10, 0.02, -4, 0.5\n",
+        "ogden: {mu1: 0.01, alpha1: 10, mu2: -0.01, alpha2: -4}", "quadratic: {d: 0.5}");
+  check(", ARRUDA-BOYCE", "0.05, 1.3, 0.5\n", "arruda_boyce: {mu: 0.05, locking_stretch: 1.3}",
+        "simo_taylor: {d: 0.5}");
+  // without D1, d follows from the shear modulus 2 C10
+  CHECK(keys_of_material(", NEO HOOKE", "0.05\n") ==
+        "{matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.02}}}; D1 is 0, "
+        "incompressible: d makes the bulk modulus 1000 times the shear modulus");
+}
+
+TEST_CASE(
+    "hyperelastic materials of an .inp that have no counterpart are left out with the reason") {
+  const auto check = [](const std::string& parameters, const std::string& data,
+                        const std::string& why) {
+    CHECK(note_of_material(parameters, data) == "left out: the material M of all: " + why);
+  };
+  check(", MARLOW", "1, 2\n", "*HYPERELASTIC, MARLOW");
+  check(", YEOH, TEST DATA INPUT", "", "*HYPERELASTIC, TEST DATA INPUT");
+  check(", NEO HOOKE, MODULI=INSTANTANEOUS", "1, 2\n", "*HYPERELASTIC, MODULI=INSTANTANEOUS");
+  check(", OGDEN, N=4", "1, 2\n", "N=4, more than 3 terms");
+  check(", OGDEN, N=two", "1, 2\n", "N=two, more than 3 terms");
+  check(", OGDEN", "1, 0, 0.5\n", "alpha is 0");
+  check(", N=2", "1, 2, 3, 4, 5, 0.5, 0\n", "a product of both invariants is not 0");
+  check(", YEOH", "1, 2, 3, 0.5, 0.25, 0\n", "D2 is not 0");
+  check(", YEOH", "1, 2\n", "*HYPERELASTIC has 2 numbers instead of 6");
+  check(", NEO HOOKE", "", "*HYPERELASTIC has 0 numbers instead of 2");
+  check(", NEO HOOKE", "0.05, 0.01, 20\n0.04, 0.01, 40\n",
+        "*HYPERELASTIC depends on temperature or a field");
+  check(", NEO HOOKE", "0.05, -0.01\n", "D1 is negative");
+  check(", NEO HOOKE", "-0.05, 0\n", "D1 is 0 and there is no shear modulus at rest");
+  check(", NEO HOOKE", "a, 0.01\n", "found \"a, 0.01\" in line 17");
+}
+
+TEST_CASE("each instance of a part has its material, under the name of its body") {
+  std::vector<std::string> notes;
+  const Mesh mesh =
+      read(part("P", "*Elset, elset=s\n1\n*Solid section, elset=s, material=m\n") +
+               "*Assembly, name=A\n*Instance, name=a, part=P\n*End instance\n"
+               "*Instance, name=b, part=P\n5, 0, 0\n*End instance\n*End assembly\n"
+               "*Material, name=m\n*Density\n1e-9\n*Hyperelastic, neo hooke\n0.05, 0.01\n"
+               "*Material, name=unused\n*Elastic\n1, 0.3\n",
+           notes);
+  const std::string keys =
+      "{material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.01}}}}";
+  CHECK(mesh.bodies == std::vector<std::string>{"a.s", "b.s"});
+  CHECK(notes ==
+        std::vector<std::string>{
+            "the material m of a_s for a solve config, with the numbers of the file: materials: "
+            "{a_s: " +
+                keys + "}",
+            "the material m of b_s for a solve config, with the numbers of the file: materials: "
+            "{b_s: " +
+                keys + "}",
+            "left out, as they are no mesh: *DENSITY, *ELASTIC, *MATERIAL"});
+}
+
 }  // namespace inp_parts_tests

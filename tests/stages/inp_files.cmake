@@ -13,7 +13,16 @@ file(WRITE ${folder}/main.inp
 file(WRITE ${folder}/mesh.yaml "geometry: {file: {path: main.inp}}\n")
 
 run(0 ${BIN}/langer-mesh mesh.yaml -o mesh.h5)
-expect_said("left out, as they are no mesh: *HYPERELASTIC, *MATERIAL")
+set(keys "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.01}}}")
+expect_said("the material m of skin for a solve config, with the numbers of the file: ${keys}")
+
+# this text is right in a solve config, and langer-solve prints it too where it reads the file itself
+file(WRITE ${folder}/copied.yaml
+  "mesh: {geometry: {file: {path: main.inp}}}\n${keys}\n"
+  "supports: [{on: x_min, hold: [x, y, z]}]\nloads: [{on: x_max, displacement: {x: 0.2}}]\npath: {steps: 1}\n")
+run(0 ${BIN}/langer-solve copied.yaml -o copied.h5)
+expect_said("the material m of skin for a solve config")
+file(REMOVE ${folder}/copied.h5)
 run(0 ${BIN}/langer check mesh.yaml)
 run(0 ${BIN}/langer show mesh.h5)
 expect_said("skin")

@@ -45,7 +45,12 @@ Accuracy ModelChoice::of_model() const {
 // estimate of a contact that a single cell resolves is not useful.
 Mesh ModelChoice::mesh() {
   if (cells_) return cells_->mesh();
-  Mesh mesh = body_mesh(config(), file_, where_);
+  std::vector<std::string> notes;
+  Mesh mesh = body_mesh(config(), file_, where_, &notes);
+  if (!file_was_read_) {
+    for (const std::string& note : notes) voice_.say("{}", note);
+  }
+  file_was_read_ = true;
   if (!accuracy_.cuts() || !reason_not_refinable(mesh).empty()) return mesh;
   cells_.emplace(mesh);
   if (const int times = shorten_under(config(), *cells_); times > 0)

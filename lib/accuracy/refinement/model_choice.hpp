@@ -63,6 +63,7 @@ class ModelChoice {
   SectionInPlace section_;
   Accuracy accuracy_;
   std::optional<CutMesh> cells_;
+  bool file_was_read_ = false;  // of the geometry: what was found in it has been printed
   struct Level {
     Accuracy accuracy;
     std::optional<CutMesh> cells;

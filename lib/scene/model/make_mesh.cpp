@@ -193,7 +193,8 @@ void bend_mesh(Mesh& mesh, const MeshConfig& config) {
 MadeMesh made(const MeshConfig& config) {
   MadeMesh result;
   Mesh& mesh = result.mesh;
-  mesh = with_lines(config, result.notes);
+  const bool from_file = std::holds_alternative<FromFile>(config.geometry);
+  mesh = with_lines(config, from_file ? result.of_file : result.notes);
   if (config.cells != mesh.type) {
     const auto section = mesh.section;
     mesh = raised(mesh, config.cells);
@@ -208,7 +209,7 @@ MadeMesh made(const MeshConfig& config) {
   if (!config.cuts.empty()) mesh = with_cuts(std::move(mesh), config.cuts);
   name_points(mesh, config.positions());
   result.quality = quality(mesh);
-  if (std::holds_alternative<FromFile>(config.geometry))
+  if (from_file)
     refuse_folded_in_file(result.quality);
   else
     refuse_folded(result.quality, "geometry");

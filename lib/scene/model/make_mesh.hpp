@@ -16,7 +16,8 @@ namespace langer {
 struct MadeMesh {
   Mesh mesh;
   Quality quality;
-  std::vector<std::string> notes;  // what a user may want to know
+  std::vector<std::string> notes;    // details, such as moved grid lines
+  std::vector<std::string> of_file;  // what was read otherwise than the geometry's file says
 };
 
 MadeMesh make_mesh(const MeshConfig& config, const std::function<Place(const std::string&)>& where);

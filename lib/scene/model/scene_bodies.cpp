@@ -109,13 +109,16 @@ Mesh joined(const std::vector<std::pair<std::string, Mesh>>& bodies) {
   return all;
 }
 
-Mesh mesh_of_bodies(const SolveConfig& config, const Find& where) {
+Mesh mesh_of_bodies(const SolveConfig& config, const Find& where, std::vector<std::string>* notes) {
   std::vector<std::pair<std::string, Mesh>> meshes;
   for (const auto& [name, body] : config.bodies) {
     const std::string key = "bodies." + name + ".mesh";
     try {
-      meshes.emplace_back(name,
-                          make_mesh(body.mesh, [](const std::string&) { return Place{}; }).mesh);
+      MadeMesh made = make_mesh(body.mesh, [](const std::string&) { return Place{}; });
+      if (notes) {
+        for (const std::string& note : made.of_file) notes->push_back(name + ": " + note);
+      }
+      meshes.emplace_back(name, std::move(made.mesh));
     } catch (const Failure& failure) {
       std::vector<Error> errors = failure.errors();
       for (Error& e : errors) {

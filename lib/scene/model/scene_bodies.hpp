@@ -23,9 +23,11 @@ bool has_deformable_contact(const SolveConfig& config);
 // without `bodies` and without `against` stays as it is.
 void expand_bodies(SolveConfig& config, Tree& tree);
 
-// one mesh of all bodies. Throws Failure(config) at the key of the body.
+// one mesh of all bodies. Throws Failure(config) at the key of the body. notes: receives what was
+// read otherwise than a geometry's file says.
 Mesh mesh_of_bodies(const SolveConfig& config,
-                    const std::function<Place(const std::string&)>& where);
+                    const std::function<Place(const std::string&)>& where,
+                    std::vector<std::string>* notes = nullptr);
 Mesh joined(const std::vector<std::pair<std::string, Mesh>>& bodies);
 
 // Adds scene.surfaces. Errors: a set without facets, surfaces that share nodes, bodies that

@@ -31,9 +31,12 @@ void refuse_bad(const Mesh& mesh, const std::string& file) {
   }
 }
 
-Mesh described(const SolveConfig& config, const std::function<Place(const std::string&)>& where) {
+Mesh described(const SolveConfig& config, const std::function<Place(const std::string&)>& where,
+               std::vector<std::string>* notes) {
   try {
-    return make_mesh(*config.mesh, [](const std::string&) { return Place{}; }).mesh;
+    MadeMesh made = make_mesh(*config.mesh, [](const std::string&) { return Place{}; });
+    if (notes) *notes = std::move(made.of_file);
+    return std::move(made.mesh);
   } catch (const Failure& failure) {
     std::vector<Error> errors = failure.errors();
     for (Error& e : errors) {
@@ -49,9 +52,10 @@ Mesh described(const SolveConfig& config, const std::function<Place(const std::s
 }  // namespace
 
 Mesh body_mesh(const SolveConfig& config, const std::string& file,
-               const std::function<Place(const std::string&)>& where) {
-  if (file.empty() && !config.bodies.empty()) return mesh_of_bodies(config, where);
-  Mesh mesh = file.empty() ? described(config, where) : read_mesh(file).mesh;
+               const std::function<Place(const std::string&)>& where,
+               std::vector<std::string>* notes) {
+  if (file.empty() && !config.bodies.empty()) return mesh_of_bodies(config, where, notes);
+  Mesh mesh = file.empty() ? described(config, where, notes) : read_mesh(file).mesh;
   refuse_bad(mesh, file);
   return mesh;
 }
