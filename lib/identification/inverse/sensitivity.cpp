@@ -69,7 +69,8 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
       moved_(moved_sets(config)),
       parameters_(config, run.mesh, run.scene, where),
       last_(run.increment.accepted()),
-      earlier_(last_) {
+      earlier_(last_),
+      loads_(run, parameters_, config, where) {
   for (std::size_t i = 0; i < parameters().size(); ++i) {
     if (!run.inertia || !parameters_.layer(i)) continue;
     const std::string key = fmt::format("sensitivity[{}]", i);
@@ -77,6 +78,11 @@ Sensitivity::Sensitivity(Run& run, const SolveConfig& config, const Run::Where& 
                                       "numbers of the material, of friction or of an indenter",
                                       "the mass of a layer changes with its thickness"});
   }
+  if (run.body.viscous() && run.inertia && !parameters().empty())
+    throw Failure(Exit::config, Error{where("sensitivity"), "sensitivity",
+                                      "found a viscous material together with dynamics",
+                                      "an elastic material, or no dynamics", ""});
+  if (run.body.viscous()) neighbours_.emplace(run.reduction, parameters_);
   StateDerivative rest;
   rest.u = VecX::Zero(last_.u.size());
   if (run.inertia) rest.motion.v = rest.motion.a = rest.motion.b = rest.u;
@@ -132,13 +138,14 @@ std::vector<Summary> Sensitivity::summary(const StepRecord& last) const {
 // Rayleigh quotient of a mode is stationary, so its difference is that of the eigenvalue.
 void Sensitivity::add_frequencies(const Modes& modes, const std::vector<double>& density,
                                   ModesRecord& record) {
+  if (neighbours_) return;  // the stiffness of a mode then has what the branches remember
   const BodyState now = run_.increment.accepted();
   const Scene& scene = run_.reduction.scene();
   const Mesh& mesh = run_.reduction.mesh();
   const std::vector<Dofs> breaking = run_.reduction.symmetry_breaking_dofs();
   for (std::size_t i = 0; i < parameters().size(); ++i) {
-    if (parameters_.layer(i) || parameters_.shape(i) || d_last_[i].u.size() != now.u.size())
-      continue;
+    if (parameters_.layer(i) || parameters_.shape(i) || parameters_.load(i)) continue;
+    if (d_last_[i].u.size() != now.u.size()) continue;
     // where forces are linear in the number, its step is as large as a modulus
     const double h = parameters_.linear(i) ? 1e-4 * parameters_.step(i) : parameters_.step(i);
     const auto put_at = [&](double by) {
@@ -193,24 +200,17 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   std::vector<ParameterChange> out(parameters().size());
   energies.assign(out.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i) {
+    add_contact_change(i, out[i]);
+    if (neighbours_) out[i].f = neighbours_->change(i, u).f;
+    loads_.add_change(i, run_.increment.accepted().t, u, out[i]);
+    if (neighbours_) continue;
     if (parameters_.layer(i)) {
       const Assembler::Forces rate = change_by_thickness(i);
       out[i].f = rate.f;
       energies[i] = rate.W;
       continue;
     }
-    if (parameters_.shape(i)) {
-      for (const RigidContact& contact : scene.contacts) {
-        auto& shape = out[i].shapes.emplace_back();
-        if (contact.name == parameters_.contact(i)) shape = parameters_.shape(i);
-      }
-      continue;
-    }
-    if (!parameters_.of_laws(i)) {
-      for (const RigidContact& contact : scene.contacts)
-        out[i].mu.push_back(static_cast<double>(contact.name == parameters_.contact(i)));
-      continue;
-    }
+    if (!parameters_.of_laws(i)) continue;
     const double h = parameters_.step(i);
     const auto with = [&](double by) {
       SceneParameters::Laws laws = parameters_.varied(scene, run_.reduction.mesh(), i, by);
@@ -229,6 +229,20 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
     energies[i] = (more.W - less.W) / width;
   }
   return out;
+}
+
+// What a number changes of the contact laws: the friction or the shape of one indenter.
+void Sensitivity::add_contact_change(std::size_t i, ParameterChange& change) const {
+  if (parameters_.contact(i).empty()) return;
+  for (const RigidContact& contact : run_.reduction.scene().contacts) {
+    const bool is_it = contact.name == parameters_.contact(i);
+    if (!parameters_.shape(i)) {
+      change.mu.push_back(static_cast<double>(is_it));
+      continue;
+    }
+    auto& shape = change.shapes.emplace_back();
+    if (is_it) shape = parameters_.shape(i);
+  }
 }
 
 // What the thickness of a layer changes of forces and energy where displacements stand still: nodes
@@ -264,6 +278,8 @@ Assembler::Forces Sensitivity::change_by_thickness(std::size_t i) {
 void Sensitivity::advance(const StepRecord& record) {
   const StateTangent tangent(run_.increment, earlier_);
   std::vector<double> energies, of_movement;
+  const BodyState& now = run_.increment.accepted();
+  if (neighbours_) neighbours_->begin((now.t - last_.t) * run_.increment.state().options.seconds);
   const std::vector<ParameterChange> all = changes(energies);
   std::vector<StateDerivative> d;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -282,11 +298,15 @@ void Sensitivity::advance(const StepRecord& record) {
     d.push_back(*found);
   }
   const std::vector<VecX> reactions = tangent.reactions(all, d, &of_movement);
+  for (std::size_t i = 0; i < d.size() && neighbours_; ++i) {
+    energies[i] = neighbours_->accept(i, last_.u, d_last_[i].u, now.u, d[i].u);
+    of_movement[i] = 0;  // the energy is that of the moved neighbours
+  }
   of_part_.clear();
   for (std::size_t i = 0; i < d.size(); ++i)
     of_part_.push_back(of_part(record, d[i], reactions[i], energies[i] + of_movement[i]));
   earlier_ = std::move(last_);
-  last_ = run_.increment.accepted();
+  last_ = now;
   d_earlier_ = std::move(d_last_);
   d_last_ = std::move(d);
 }
@@ -435,6 +455,10 @@ void Sensitivity::kept(const StepRecord& whole) {
       if (contact.control)
         d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));
   }
+  if (!neighbours_) return;
+  neighbours_->begin((last_.t - earlier_.t) * run_.increment.state().options.seconds);
+  for (std::size_t i = 0; i < d_last_.size(); ++i)
+    neighbours_->accept(i, earlier_.u, d_earlier_[i].u, last_.u, d_last_[i].u);
 }
 
 }  // namespace langer

@@ -4,15 +4,19 @@
 // Every accepted state is differentiated directly (solve/state_tangent.hpp). For a parameter of the
 // material, the change of the internal force with u fixed is a difference of two forces; it is
 // exact for moduli, in which forces are linear. With friction an increment needs the derivatives of
-// the two before it; of a body in motion, those of velocities and accelerations.
+// the two before it; of a body in motion, those of velocities and accelerations. What a viscous
+// body remembers is differentiated by neighbours of it (viscous_neighbours.hpp).
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "accuracy/checks/recording.hpp"
+#include "identification/inverse/load_neighbours.hpp"
+#include "identification/inverse/viscous_neighbours.hpp"
 #include "mechanics/solve/state_tangent.hpp"
 #include "scene/model/scene_parameters.hpp"
 #include "scene/run/vibration.hpp"
@@ -38,7 +42,8 @@ class Sensitivity {
   void kept(const StepRecord& whole);
 
   // At the end of the path: of the frequencies of these modes, which symmetry of the state does not
-  // mix. Numbers of layers and of shapes of indenters are left out.
+  // mix. Numbers of layers, of shapes of indenters and of loads are left out, and all of a viscous
+  // body.
   void add_frequencies(const Modes& modes, const std::vector<double>& density, ModesRecord& record);
 
   Observer observer();  // of a Recording; empty without the key
@@ -54,6 +59,7 @@ class Sensitivity {
   bool has_mass_of_its_own() const;
   void advance(const StepRecord& record);  // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
+  void add_contact_change(std::size_t i, ParameterChange& change) const;
   Assembler::Forces change_by_thickness(std::size_t i);
   StepRecord of_part(const StepRecord& record, const StateDerivative& d, const VecX& reactions,
                      double energy) const;
@@ -75,6 +81,8 @@ class Sensitivity {
     std::vector<std::unique_ptr<Assembler>> bodies;
   };
   std::map<std::size_t, ThicknessSteps> by_thickness_;
+  std::optional<ViscousNeighbours> neighbours_;  // of a viscous body
+  LoadNeighbours loads_;
 };
 
 // Derivative of -force . way/|way| with a fixed direction; of |force| if there is no way.

@@ -367,7 +367,7 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
   VecX rhs = f;
   VecX h =
       near_.empty() ? VecX() : right_hand_side(change, slip_of_history(change, before, earlier));
-  if (pushed_) h[h.size() - 1] = typical_.front() * travel_force_change(before);
+  if (pushed_) h[h.size() - 1] = typical_.front() * (travel_force_change(before) + change.control);
   double size = rhs.norm();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {

@@ -52,12 +52,13 @@ struct ParameterChange {
   std::vector<Vec3> indenters =
       {};  // by contact: of its place [mm], whose orientation stands still
   std::vector<std::optional<ShapeChange>> shapes = {};  // by contact: of its shape
+  double control = 0;                                   // of the given force on an indenter [N]
 };
 
 class StateTangent {
  public:
   // Of the state that was accepted last, right after accept(): assembles and factorizes there.
-  // `earlier`: the state before the one before it. Refers to increment.
+  // `earlier`: the state before the one before it. Refers to the increment.
   StateTangent(Increment& increment, const BodyState& earlier);
 
   // before, earlier: derivatives of the two states before. Nothing where the tangent is singular,

@@ -129,7 +129,8 @@ std::string unit_of_config_number(const std::string& path) {
   if (has(".rigid.") || has(".motion[") || has("thickness") || has(".size[") ||
       has(".displacement") || has(".radius"))
     return unit::mm;
-  if (has(".pressure")) return unit::MPa;
+  if (has(".rotation.angle")) return unit::deg;
+  if (has(".pressure") || has(".traction")) return unit::MPa;
   if (has(".force")) return unit::N;
   return unit::none;
 }

@@ -113,8 +113,10 @@ SceneParameters::SceneParameters(const SolveConfig& config, const Mesh& mesh, co
                                  const Where& where) {
   for (std::size_t i = 0; i < config.sensitivity.size(); ++i) {
     const std::string at = fmt::format("sensitivity[{}]", i), &key = config.sensitivity[i];
-    take(key, config, mesh, scene, {where(at), at, fmt::format("found \"{}\"", key), "", ""});
+    take(key, config, mesh, scene, {where(at), at, fmt::format("found \"{}\"", key), "", ""},
+         where);
   }
+  add_other_loads(config, mesh, scene, where);
 }
 
 namespace {
@@ -172,6 +174,10 @@ bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& 
   if (!layer)
     refuse_number(refused, "and " + why, "the thickness of a flat layer with indenters on one side",
                   "");
+  for (const Material& material : scene.materials)
+    if (is_viscous(material))
+      refuse_number(refused, "and a material is viscous", "an elastic material, or another number",
+                    "langer-fit finds it by differences of runs");
   if (scene.formulation == Formulation::linear_dilatation)
     refuse_number(refused, "and cells are of second order", "hex8, or another number",
                   "langer-fit finds it by differences of runs");
@@ -189,10 +195,70 @@ bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& 
   return true;
 }
 
+namespace {
+
+// Numbers of loads that a state can be differentiated by.
+bool names_load(const std::string& key) {
+  if (key.starts_with("contacts.") && key.ends_with(".control.force")) return true;
+  if (!key.starts_with("loads[")) return false;
+  for (const char* kind : {"].displacement.", "].force.", "].traction.", "].rotation.angle"})
+    if (key.find(kind) != std::string::npos) return true;
+  return key.ends_with("].pressure");
+}
+
+// The scene of the config with the materials of another, which may come from a file.
+Scene with_materials_of(const Scene& scene, const SolveConfig& config, const Mesh& mesh,
+                        const SceneParameters::Where& where) {
+  Scene other = make_scene(config, mesh, scene.materials.front(), where);
+  other.materials = scene.materials;
+  other.directions = scene.directions;
+  return other;
+}
+
+}  // namespace
+
+// A number of a load that is in proportion to t. Forces and movements are linear in it but those of
+// a rotation, so the step of their difference may be long.
+bool SceneParameters::take_load(const std::string& key, const SolveConfig& config, const Mesh& mesh,
+                                const Scene& scene, const Error& refused, const Where& where) {
+  if (!names_load(key)) return false;
+  const auto value = config_number(config, key);
+  if (!value)
+    refuse_number(refused, "which is no number of this scene", "a load given by one number",
+                  "a history has many numbers");
+  const double share = key.ends_with("rotation.angle") ? 1e-4 : 1e-3;
+  const double h = *value != 0 ? share * std::abs(*value) : share;
+  const auto scene_with = [&](double by) {
+    return std::make_shared<const Scene>(
+        with_materials_of(scene, with_config_number(config, key, *value + by), mesh, where));
+  };
+  Of of;
+  of.load = LoadChange{scene_with(-h), scene_with(h), 2 * h};
+  list_.push_back({key, name_of(key), unit_of_config_number(key), *value});
+  of_.push_back(std::move(of));
+  return true;
+}
+
+// All numbers of loads changed at once, each by another share.
+void SceneParameters::add_other_loads(const SolveConfig& config, const Mesh& mesh,
+                                      const Scene& scene, const Where& where) {
+  std::optional<SolveConfig> other;
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    if (!of_[i].load) continue;
+    if (!other) other = config;
+    const double share = 0.01 * static_cast<double>(i + 1);
+    const double value = list_[i].value;
+    const double changed = value != 0 ? (1 + share) * value : share;
+    other = with_config_number(*other, list_[i].key, changed);
+  }
+  if (!other) return;
+  other_loads_ = std::make_shared<const Scene>(with_materials_of(scene, *other, mesh, where));
+}
+
 // Finds the number that a key means: friction of a contact, a number of the material at the top, or
 // of one body. Everything that cannot be differentiated is refused with the reason.
 void SceneParameters::take(const std::string& key, const SolveConfig& config, const Mesh& mesh,
-                           const Scene& scene, const Error& refused) {
+                           const Scene& scene, const Error& refused, const Where& where) {
   const auto refuse = [&](std::string found, std::string expected, std::string hint = "") {
     Error error = refused;
     if (!found.empty()) error.found += ", " + found;
@@ -202,10 +268,6 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   };
   for (const SceneParameter& other : list_)
     if (other.key == key) refuse("a second time", "each number once");
-  for (const Material& m : scene.materials)
-    if (is_viscous(m))
-      refuse("and a material is viscous", "an elastic law",
-             "derivatives do not follow what branches remember");
   std::vector<std::string> known;
   for (const RigidContact& contact : scene.contacts) {
     if (contact.adhesion)
@@ -223,6 +285,7 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   }
   if (take_shape(key, config, refused)) return;
   if (take_thickness(key, config, mesh, scene, refused)) return;
+  if (take_load(key, config, mesh, scene, refused, where)) return;
   const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies,
                            const std::vector<int>& of_angles) {
     if (bodies.empty()) return false;
@@ -230,6 +293,8 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     for (const MaterialParameter& p : parameters(material)) {
       known.push_back(beginning + p.key);
       if (key != beginning + p.key && key != beginning + "material." + p.key) continue;
+      if (p.key.starts_with("spectrum.tau"))
+        refuse("which decides how many branches there are", "spectrum.c, or branches of viscous");
       const int family = family_of(p.key);
       const std::vector<int>& concerned = family >= 0 ? of_angles : bodies;
       for (int b : concerned)
@@ -292,9 +357,10 @@ SceneParameters::Laws SceneParameters::varied(const Scene& scene, const Mesh& me
 // All numbers changed at once, each by another share. A symmetry that this scene has does not
 // depend on the values, so derivatives have it as well.
 Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const {
-  Scene other = scene;
+  Scene other = other_loads_ ? *other_loads_ : scene;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     const double share = 0.01 * static_cast<double>(i + 1);
+    if (of_[i].load) continue;
     if (!of_laws(i)) {
       for (RigidContact& contact : other.contacts)
         if (contact.name == of_[i].contact) {

@@ -6,9 +6,12 @@
 //   contacts.sphere.friction            of an indenter
 //   contacts.sphere.rigid.sphere.radius any number of its shape (scene/model/config_number.hpp)
 //   mesh.bodies[0].thickness            of a flat layer; mesh.geometry.block.size[1] of one body
+//   loads[0].pressure                   or displacement, rotation.angle, force, traction of one number
+//   contacts.sphere.control.force       of an indenter
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,12 @@ struct SceneParameter {
 // name of the derivative of a quantity, unit included: d_force_N_d_matrix_yeoh_a1
 std::string derivative_name(const std::string& quantity, const SceneParameter& parameter);
 
+// The scene where the number of a load is a little less, or more, by `width` in all.
+struct LoadChange {
+  std::shared_ptr<const Scene> less, more;
+  double width = 1;
+};
+
 class SceneParameters {
  public:
   using Where = std::function<Place(const std::string&)>;
@@ -39,11 +48,15 @@ class SceneParameters {
   const std::vector<SceneParameter>& list() const { return list_; }
   bool turns_fibres() const;
   bool moves_mesh() const;
-  bool of_laws(std::size_t i) const { return of_[i].contact.empty() && !of_[i].layer; }
+  bool of_laws(std::size_t i) const {
+    return of_[i].contact.empty() && !of_[i].layer && !of_[i].load;
+  }
   // The layer whose thickness number i is, in the mesh of the whole or of a part; else nothing.
   const std::optional<LayerThickness>& layer(std::size_t i) const { return of_[i].layer; }
   // Shapes of contact(i) around that of the scene; nothing where i is no number of a shape.
   const std::optional<ShapeChange>& shape(std::size_t i) const { return of_[i].shape; }
+  // Scenes around this one, if number i is one of a load.
+  const std::optional<LoadChange>& load(std::size_t i) const { return of_[i].load; }
   const std::string& contact(std::size_t i) const {
     return of_[i].contact;
   }  // whose friction or shape it is; empty: a number of laws, or a thickness
@@ -69,14 +82,21 @@ class SceneParameters {
     double modulus = 0;  // where it is: the largest of its law [MPa]
     std::optional<LayerThickness> layer = {};
     std::optional<ShapeChange> shape = {};
+    std::optional<LoadChange> load = {};
   };
+  void add_other_loads(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
+                       const Where& where);
+  bool take_load(const std::string& key, const SolveConfig& config, const Mesh& mesh,
+                 const Scene& scene, const Error& refused, const Where& where);
   bool take_shape(const std::string& key, const SolveConfig& config, const Error& refused);
   bool take_thickness(const std::string& key, const SolveConfig& config, const Mesh& mesh,
                       const Scene& scene, const Error& refused);
   void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
-            const Error& refused);
+            const Error& refused, const Where& where);
 
   std::vector<SceneParameter> list_;
+  std::shared_ptr<const Scene>
+      other_loads_;  // with all numbers of loads changed; none: no such one
   std::vector<Of> of_;
 };
 

@@ -444,7 +444,7 @@ struct SolveConfig {
       "auto: where one material between plane faces that are held or moved as wholes deforms alike everywhere, one hexahedron is "
       "solved instead of the mesh; every state is put to the mesh, which has to balance, and whose stability is looked at");
     v(&SolveConfig::sensitivity, "sensitivity", unit::none,
-      "numbers of the scene, such as matrix.yeoh.a1, fibres[0].alpha, materials.dermis.matrix.yeoh.a1 or contacts.sphere.friction: at "
+      "numbers of the scene, such as matrix.yeoh.a1, viscous[0].tau, materials.dermis.matrix.yeoh.a1, contacts.sphere.friction or loads[0].pressure: at "
       "every increment the derivatives of displacements, reactions and forces with respect to each");
     v(&SolveConfig::uncertainty, "uncertainty", unit::none,
       "linear: what the fit behind --material does not know of its parameters is carried into the forces");

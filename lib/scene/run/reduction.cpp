@@ -72,9 +72,15 @@ Assembler Reduction::assembler(std::optional<Division> division) const {
 }
 
 std::unique_ptr<Assembler> Reduction::assembler_on(const Mesh& moved) const {
+  return assembler_on(moved, scene().materials, scene().directions);
+}
+
+std::unique_ptr<Assembler> Reduction::assembler_on(const Mesh& mesh,
+                                                   std::vector<Material> materials,
+                                                   Directions directions) const {
   std::vector<double> share;
   if (part_) share = part_->cell_share();
-  return std::make_unique<Assembler>(moved, scene().materials, scene().directions,
+  return std::make_unique<Assembler>(mesh, std::move(materials), std::move(directions),
                                      scene().formulation, scene().dofs, threads_, Kernel::packets,
                                      share);
 }

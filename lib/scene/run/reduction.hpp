@@ -38,6 +38,9 @@ class Reduction {
   Assembler assembler(std::optional<Division> division = {}) const;
   // Of the elements alone where nodes of mesh() lie elsewhere at rest; refers to `moved`.
   std::unique_ptr<Assembler> assembler_on(const Mesh& moved) const;
+  // The same with other materials and directions.
+  std::unique_ptr<Assembler> assembler_on(const Mesh& mesh, std::vector<Material> materials,
+                                          Directions directions) const;
   Solver solver(
       const Solver& asked) const;  // more exact for a hexahedron, where that costs nothing
   std::string words()
