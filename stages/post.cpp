@@ -19,6 +19,7 @@
 #include "results/store/curves_file.hpp"
 #include "results/store/snapshot.hpp"
 #include "results/store/solution_file.hpp"
+#include "results/store/solution_layout.hpp"
 #include "results/store/vtu.hpp"
 #include "scene/run/post_config.hpp"
 #include "scene/run/post_files.hpp"
@@ -47,9 +48,12 @@ struct Solution {
     undeformed.reaction = undeformed.u;
     undeformed.scalars["shear_stiffness_min"] = stiffness_at_rest();
     if (reader.n_steps() > 0) {
-      const StepRecord first = reader.step(0);
-      const auto moving = first.scalars.find("kinetic_energy_at_start");
-      if (moving != first.scalars.end()) undeformed.scalars["kinetic_energy"] = moving->second;
+      // A body in motion has a velocity at the beginning, so not all of its values are 0 there.
+      const std::string suffix = solution::at_start_suffix;
+      for (const auto& [name, value] : reader.step(0).scalars) {
+        if (!name.ends_with(suffix)) continue;
+        undeformed.scalars[name.substr(0, name.size() - suffix.size())] = value;
+      }
     }
     return undeformed;
   }

@@ -40,6 +40,14 @@ if(area EQUAL -1)
   message(FATAL_ERROR "the page of two bodies has no area of contact")
 endif()
 
+# the first row of a table has the momenta of the beginning: 0.105 and -0.05 g m/s along x
+run(0 ${BIN}/langer-post configs/post/impact_two.yaml --solution two.h5 -o two_curves.h5 --quiet)
+file(READ ${WORK}/project/two_curves.csv rows)
+string(REGEX MATCH "\n0,[^\n]*" first "${rows}")
+if(NOT first MATCHES ",0[.]000105[0-9]*,-5e-05,|,0[.]00010499[0-9]*,-4[.]99[0-9]*e-05,|,0[.]000105[0-9]*,-4[.]99[0-9]*e-05,")
+  message(FATAL_ERROR "the first row has other momenta: ${first}")
+endif()
+
 # an impact is described by its results, and no equilibrium of it is judged
 run(0 ${BIN}/langer-solve configs/solve/ballistometer.yaml --set path.seconds=0.014 -o bounce.h5 --quiet)
 run(0 ${BIN}/langer-report runs/smoke/report/report.yaml --solution bounce.h5 -o bounce.html)
@@ -52,6 +60,16 @@ foreach(words
     message(FATAL_ERROR "the page of a bounce has no words \"${words}\"")
   endif()
 endforeach()
+
+# its first row has the velocity of the probe, and its depth has a sign
+run(0 ${BIN}/langer-post configs/post/ballistometer.yaml --solution bounce.h5 -o bounce_curves.h5 --quiet)
+file(READ ${WORK}/project/bounce_curves.csv rows)
+if(NOT rows MATCHES "^time_s,travel_probe_mm,[^\n]*\n0,0,0,300,0[.]09")
+  message(FATAL_ERROR "the first row has another velocity: ${rows}")
+endif()
+if(NOT rows MATCHES "\n0[.]014,-0[.]")
+  message(FATAL_ERROR "the probe is not above the skin at the end: ${rows}")
+endif()
 file(READ ${page} text)
 
 find_program(CHROMIUM NAMES chromium chromium-browser google-chrome)

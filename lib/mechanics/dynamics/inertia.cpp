@@ -88,7 +88,12 @@ Inertia::Inertia(const Assembler& body, InertiaOptions options)
   weight_ = mass_.M * g;
   acceleration_ = VecX::Zero(dofs.n);
   const MotionState start = at_start();
-  kinetic_at_start_ = start.kinetic;
+  start_values_.kinetic = start.kinetic;
+  start_values_.momentum = momentum(start);
+  for (const MovingBody& one : options_.bodies) {
+    start_values_.momentum_of.push_back(momentum(start, one));
+  }
+  start_values_.travel_v = start.travel_v;
   // A forecast assembles before any increment has begun: one of the whole path serves for it.
   begin(VecX::Zero(dofs.n), 0, start, options_.seconds);
 }

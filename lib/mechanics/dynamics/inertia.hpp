@@ -114,9 +114,16 @@ class Inertia : public AddedTerm {
   // M a + C v of such a state (3 n).
   VecX force_of(const MotionState& motion) const;
 
-  double at_start_kinetic() const { return kinetic_at_start_; }  // [N mm]
-  double kinetic(const MotionState& motion) const;               // with the indenter [N mm]
-  Vec3 momentum(const MotionState& motion) const;                // of all bodies [N s]
+  // What the results say of the beginning, which is no increment.
+  struct StartValues {
+    double kinetic = 0;               // [N mm]
+    Vec3 momentum = Vec3::Zero();     // of all bodies [N s]
+    std::vector<Vec3> momentum_of{};  // of each of several bodies
+    double travel_v = 0;              // of an indenter with mass [mm/s]
+  };
+  const StartValues& start_values() const { return start_values_; }
+  double kinetic(const MotionState& motion) const;  // with the indenter [N mm]
+  Vec3 momentum(const MotionState& motion) const;   // of all bodies [N s]
   Vec3 momentum(const MotionState& motion, const MovingBody& body) const;
   double mass_of(const MovingBody& body) const;  // [t]
   // Of all bodies at displacements u, about the origin [N mm s].
@@ -159,7 +166,7 @@ class Inertia : public AddedTerm {
   Step step_;
   std::vector<double> tangent_;
   VecX last_force_, acceleration_;
-  double kinetic_at_start_ = 0;
+  StartValues start_values_;
 };
 
 }  // namespace langer

@@ -15,6 +15,8 @@ inline constexpr std::array static_cells{"body", "e_x", "e_y", "e_z"};
 inline constexpr std::array histories{"t",           "increment", "iterations",   "residual",
                                       "u_ind",       "force_ind", "contact_open", "contact_stick",
                                       "contact_slip"};
+// Histories of a motion that are not 0 at the beginning, which is no step: their values there.
+inline constexpr const char* at_start_suffix = "_at_start";
 inline constexpr std::array status_words{"open", "stick", "slip"};
 // Whether a history has whole numbers: iterations, and candidates by their status.
 inline bool is_count(const std::string& history) {
@@ -58,9 +60,11 @@ inline constexpr auto history_lines = std::to_array<HistoryLine>({
     {"energy_balance", "N mm",
      "change of the mechanical energy since the beginning without the work of supports, loads, "
      "weight and indenters: what the time scheme gains; negative where it loses"},
+    {"momentum_*_at_start", "N s", "the same at the beginning of the path"},
     {"momentum_*", "N s",
      "of the body in motion along that axis; of several bodies each, and the sum"},
     {"indenter_velocity", "mm/s", "of an indenter with mass, along its direction"},
+    {"indenter_velocity_at_start", "mm/s", "the same at the beginning of the path"},
     {"indenter_acceleration", "mm/s^2", "of an indenter with mass, along its direction"},
     {"indenter_carried", "mm/s^2", "what the time scheme carries on of that acceleration"},
     {"u_ind", "mm", "displacement of the first indenter: x, y, z"},

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "results/store/solution_layout.hpp"
 #include "scene/model/scene_motion.hpp"
 #include "scene/run/step_record.hpp"
 
@@ -63,19 +64,27 @@ void record_motion(const Increment& increment, const Assembler& body, StepRecord
   record.point_fields[carried_field] = nodal(motion.b);
   auto& scalars = record.scalars;
   scalars["energy"] = motion.stored;
-  scalars["kinetic_energy"] = motion.kinetic;
   scalars["mechanical_energy"] = motion.total;
   scalars["damped_energy"] = motion.damped;
   scalars["energy_balance"] = motion.balance;
-  scalars["kinetic_energy_at_start"] = increment.inertia()->at_start_kinetic();
-  const Vec3 momentum = increment.inertia()->momentum(motion);
-  for (int k = 0; k < 3; ++k) scalars[std::string("momentum_") + "xyz"[k]] = momentum[k];
-  for (const MovingBody& one : increment.inertia()->options().bodies) {
-    const Vec3 of_one = increment.inertia()->momentum(motion, one);
-    for (int k = 0; k < 3; ++k) scalars["momentum_" + one.name + "_" + "xyz"[k]] = of_one[k];
+  const Inertia& inertia = *increment.inertia();
+  const Inertia::StartValues& start = inertia.start_values();
+  const auto now_and_at_start = [&](const std::string& name, double now, double at_start) {
+    scalars[name] = now;
+    scalars[name + solution::at_start_suffix] = at_start;
+  };
+  const auto along_axes = [&](const std::string& name, const Vec3& now, const Vec3& at_start) {
+    for (int k = 0; k < 3; ++k) now_and_at_start(name + "_" + "xyz"[k], now[k], at_start[k]);
+  };
+  now_and_at_start("kinetic_energy", motion.kinetic, start.kinetic);
+  along_axes("momentum", inertia.momentum(motion), start.momentum);
+  const std::vector<MovingBody>& bodies = inertia.options().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    along_axes("momentum_" + bodies[i].name, inertia.momentum(motion, bodies[i]),
+               start.momentum_of[i]);
   }
-  if (increment.inertia()->options().travel_mass > 0) {
-    scalars[indenter_velocity] = motion.travel_v;
+  if (inertia.options().travel_mass > 0) {
+    now_and_at_start(indenter_velocity, motion.travel_v, start.travel_v);
     scalars[indenter_acceleration] = motion.travel_a;
     scalars[indenter_carried] = motion.travel_b;
   }
