@@ -146,7 +146,9 @@ std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
   const FitConfig& config = job.config;
   FitProblem problem = fit_problem(config);
   check_side_files(job, problem);
-  for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
+  if (tables.empty()) {  // else the comparison has printed them
+    for (const std::string& line : doubts(problem.tests)) job.warn("{}", line);
+  }
   const std::vector<Prior> priors = priors_of(config, problem, job.where);
   const bool only_tests = !config.has_scenes();
   if (!priors.empty() && only_tests) {

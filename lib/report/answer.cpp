@@ -235,9 +235,14 @@ std::string impact_words(const std::vector<Summary>& summary, const std::string&
   const auto found = std::ranges::find(summary, name, &Summary::name);
   if (found == summary.end()) return "";
   const KnownError error = known_error(summary, name, found->value);
-  if (found->unit == "s") return words + " " + with_error(1000 * found->value, "ms", error);
-  if (found->unit == "-") return words + " " + with_error(found->value, "", error);
-  return words + " " + with_error(found->value, found->unit, error);
+  double value = found->value;
+  std::string unit = found->unit;
+  if (unit == "-") unit = "";
+  if (unit == "s") {
+    value *= 1000;
+    unit = "ms";
+  }
+  return words + " " + with_error(value, unit, error);
 }
 
 // What hits, and what is hit: an indenter with a mass hits the body, or the body hits an indenter

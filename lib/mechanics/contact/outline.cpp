@@ -82,19 +82,25 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& face, int axis, double at, do
   return kept;
 }
 
-void add_face(Outline& out, const std::vector<Vec3>& corners) {
-  std::vector<int>& face = out.faces.emplace_back();
-  for (const Vec3& x : corners)
-    face.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
+// Appends points; the numbers they get.
+std::vector<int> add_points(Outline& out, const std::vector<Vec3>& places) {
+  std::vector<int> numbers;
+  for (const Vec3& x : places) {
+    numbers.push_back(static_cast<int>(out.points.size()));
+    out.points.push_back(x);
+  }
+  return numbers;
 }
 
 void add_line(Outline& out, const std::vector<Vec3>& corners) {
-  std::vector<int>& line = out.lines.emplace_back();
-  for (const Vec3& x : corners)
-    line.push_back(static_cast<int>(out.points.size())), out.points.push_back(x);
+  out.lines.push_back(add_points(out, corners));
 }
 
 }  // namespace
+
+void add_face(Outline& out, const std::vector<Vec3>& corners) {
+  out.faces.push_back(add_points(out, corners));
+}
 
 namespace {
 

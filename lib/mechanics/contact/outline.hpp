@@ -15,6 +15,8 @@ struct Outline {
   std::vector<std::vector<int>> lines;  // drawn from both sides: the grid of a plane
 };
 
+void add_face(Outline& out, const std::vector<Vec3>& corners);
+
 // The extent of the picture: unbounded shapes are drawn as far as that.
 struct Shown {
   Vec3 middle = Vec3::Zero();

@@ -276,10 +276,32 @@ OpenedOutline opened(const Outline& outline, const std::vector<Cut>& cuts) {
   return {outline, {}};
 }
 
+// The face between the profile of a plate and its highest point, seen from the front. The plate is
+// solid there.
+std::vector<Vec3> solid_above(const Outline& outline, const std::vector<int>& profile) {
+  std::vector<Vec3> corners;
+  for (int point : profile) corners.push_back(outline.points[point]);
+  const Vec3 begin = corners.front();
+  const Vec3 end = corners.back();
+  if (begin[0] > end[0]) {
+    corners.emplace_back(begin[0], end[1], begin[2]);
+  } else {
+    corners.emplace_back(end[0], begin[1], end[2]);
+  }
+  if (normal_of(corners)[2] < 0) std::ranges::reverse(corners);
+  return corners;
+}
+
+// Removes the lines that have no point beyond x.
+void erase_lines_up_to(double x, Outline& outline) {
+  std::erase_if(outline.lines, [&](const std::vector<int>& line) {
+    return std::ranges::all_of(line, [&](int point) { return outline.points[point][0] <= x; });
+  });
+}
+
 // The outline of an indenter of a section. A plate with a hole encloses no volume, and its wall
 // would stand next to the body and in front of it. It is cut along the section and at the axis y,
-// which leaves the line of its profile and the part of its wall behind that. The profile is filled
-// as high as the wall is drawn, because the plate is solid there.
+// which leaves the line of its profile and the part of its wall behind that.
 OpenedOutline opened_along(const Section& section, const Outline& outline) {
   Eigen::AlignedBox3d box;
   for (const Vec3& x : outline.points) box.extend(x);
@@ -288,32 +310,11 @@ OpenedOutline opened_along(const Section& section, const Outline& outline) {
   const bool has_hole = behind.cap.faces.empty() && !behind.kept.lines.empty();
   if (!has_hole) return {outline, {}};
   if (section.of != SectionOf::axisymmetric) return behind;
-  const auto reaches = [&](const Outline& part, const std::vector<int>& line, double x) {
-    return std::ranges::any_of(line, [&](int point) { return part.points[point][0] > x; });
-  };
-  std::erase_if(behind.kept.lines, [&](const auto& line) {
-    return !reaches(behind.kept, line, aside);  // the profile on the other side of the axis
-  });
+  erase_lines_up_to(aside, behind.kept);  // the profile on the other side of the axis
   OpenedOutline right = cut_open(behind.kept, 0, aside, 1);
-  std::erase_if(right.kept.lines, [&](const auto& line) {
-    return !reaches(right.kept, line, aside);  // where the axis cuts the wall
-  });
-  for (const std::vector<int>& line : right.kept.lines) {
-    std::vector<Vec3> corners;
-    for (int point : line) corners.push_back(right.kept.points[point]);
-    const Vec3 begin = corners.front();
-    const Vec3 end = corners.back();
-    if (begin[0] > end[0]) {
-      corners.emplace_back(begin[0], end[1], begin[2]);
-    } else {
-      corners.emplace_back(end[0], begin[1], end[2]);
-    }
-    if (normal_of(corners)[2] < 0) std::ranges::reverse(corners);
-    std::vector<int>& face = right.cap.faces.emplace_back();
-    for (const Vec3& corner : corners) {
-      face.push_back(static_cast<int>(right.cap.points.size()));
-      right.cap.points.push_back(corner);
-    }
+  erase_lines_up_to(aside, right.kept);  // where the axis cuts the wall
+  for (const std::vector<int>& profile : right.kept.lines) {
+    add_face(right.cap, solid_above(right.kept, profile));
   }
   right.kept.lines.clear();
   return right;
