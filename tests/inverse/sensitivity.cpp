@@ -390,7 +390,7 @@ TEST_CASE("one of two equal loads takes the symmetry away, and a history has no 
   CHECK(one_side.find("mirror x") == std::string::npos);
   CHECK(one_side.find("mirror z") != std::string::npos);
   CHECK_THROWS_WITH_AS(kept("[{t: 1, to: -0.01}]", listed({"loads[0].traction.x"})),
-                       doctest::Contains("a load given by one number"), Failure);
+                       doctest::Contains("a load with a history has no single number"), Failure);
 }
 
 // scalars of the last step against differences of runs

@@ -206,6 +206,23 @@ bool names_load(const std::string& key) {
   return key.ends_with("].pressure");
 }
 
+// The numbers of loads that a config has.
+std::vector<std::string> load_numbers(const SolveConfig& config) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (config_number(config, key)) keys.push_back(key);
+  };
+  for (std::size_t i = 0; i < config.loads.size(); ++i) {
+    const std::string load = fmt::format("loads[{}].", i);
+    for (const char* kind : {"displacement", "force", "traction"})
+      for (const char* axis : {"x", "y", "z"}) add(load + kind + "." + axis);
+    add(load + "rotation.angle");
+    add(load + "pressure");
+  }
+  for (const auto& [name, contact] : config.contacts) add("contacts." + name + ".control.force");
+  return keys;
+}
+
 // The scene of the config with the materials of another, which may come from a file.
 Scene with_materials_of(const Scene& scene, const SolveConfig& config, const Mesh& mesh,
                         const SceneParameters::Where& where) {
@@ -220,12 +237,10 @@ Scene with_materials_of(const Scene& scene, const SolveConfig& config, const Mes
 // A number of a load that is in proportion to t. Forces and movements are linear in it but those of
 // a rotation, so the step of their difference may be long.
 bool SceneParameters::take_load(const std::string& key, const SolveConfig& config, const Mesh& mesh,
-                                const Scene& scene, const Error& refused, const Where& where) {
+                                const Scene& scene, const Where& where) {
   if (!names_load(key)) return false;
   const auto value = config_number(config, key);
-  if (!value)
-    refuse_number(refused, "which is no number of this scene", "a load given by one number",
-                  "a history has many numbers");
+  if (!value) return false;
   const double share = key.ends_with("rotation.angle") ? 1e-4 : 1e-3;
   const double h = *value != 0 ? share * std::abs(*value) : share;
   const auto scene_with = [&](double by) {
@@ -285,7 +300,7 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
   }
   if (take_shape(key, config, refused)) return;
   if (take_thickness(key, config, mesh, scene, refused)) return;
-  if (take_load(key, config, mesh, scene, refused, where)) return;
+  if (take_load(key, config, mesh, scene, where)) return;
   const auto look_in = [&](const std::string& beginning, const std::vector<int>& bodies,
                            const std::vector<int>& of_angles) {
     if (bodies.empty()) return false;
@@ -323,6 +338,11 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
              "that number is one of all bodies that take it");
     if (look_in(beginning, body, body)) return;
   }
+  for (const std::string& number : load_numbers(config)) known.push_back(number);
+  if (names_load(key))
+    refuse("which is no number of this scene",
+           fmt::format("a number of the scene: {}", fmt::join(known, ", ")),
+           "a load with a history has no single number");
   const std::string near = nearest(key, known);
   refuse("", fmt::format("a number of the scene: {}", fmt::join(known, ", ")), did_you_mean(near));
 }

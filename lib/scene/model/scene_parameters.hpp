@@ -87,7 +87,7 @@ class SceneParameters {
   void add_other_loads(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
                        const Where& where);
   bool take_load(const std::string& key, const SolveConfig& config, const Mesh& mesh,
-                 const Scene& scene, const Error& refused, const Where& where);
+                 const Scene& scene, const Where& where);
   bool take_shape(const std::string& key, const SolveConfig& config, const Error& refused);
   bool take_thickness(const std::string& key, const SolveConfig& config, const Mesh& mesh,
                       const Scene& scene, const Error& refused);
