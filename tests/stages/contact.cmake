@@ -114,3 +114,12 @@ foreach(friction 0 0.05 0.34 3)
     endif()
   endforeach()
 endforeach()
+
+# a pressure that reaches under the plate of a cup is noticed
+set(coarse --set "mesh.geometry.section.divisions=[24,8]" --set "loads=[{on: hole, pressure: -0.01}]" --set "path={steps: 2}" --set estimate=none)
+run(0 ${BIN}/langer-solve configs/solve/suction_plate.yaml ${coarse} -o cup.h5)
+if(said MATCHES "under the plate")
+  message(FATAL_ERROR "the set of the shipped cup ends at its hole:\n${said}")
+endif()
+run(0 ${BIN}/langer-solve configs/solve/suction_plate.yaml ${coarse} --set mesh.sets.hole.within.cylinder.radius=4 -o wide.h5)
+expect_said("contacts.plate: a pressure also acts under the plate: its set reaches 4 mm from the axis of the hole, and the plate is flat from 2.25 mm on")

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "mechanics/assembly/zero_energy_modes.hpp"
+#include "mechanics/mesh/facets.hpp"
 
 namespace langer {
 
@@ -17,11 +21,53 @@ bool is_pushed_away(const Run& run, const RigidMotions& free) {
          !surface_file(contact.shape);
 }
 
+double distance_from(const Line& axis, const Vec3& x) {
+  return (x - axis.point).cross(axis.along).norm();
+}
+
+// How far from the axis of a hole a load presses on facets that may touch the plate around it [mm];
+// 0 if its facets end where the plate begins to be flat.
+double reach_under_plate(const Mesh& mesh, const RigidContact& contact, const RoundHole& hole,
+                         const SurfaceLoad& load) {
+  const std::set<int> candidates(contact.nodes.begin(), contact.nodes.end());
+  const double flat_from = (1 + 1e-6) * (hole.radius + hole.edge);
+  const auto under = [&](int node) {
+    const Vec3& x = mesh.X[static_cast<std::size_t>(node)];
+    return candidates.count(node) > 0 && distance_from(hole.axis, x) > flat_from;
+  };
+  double reach = 0;
+  for (const Facet& facet : load.facets)
+    for (const auto& quad : facet_quads(mesh, facet)) {
+      if (!std::ranges::all_of(quad, under)) continue;
+      for (int node : quad)
+        reach = std::max(reach, distance_from(hole.axis, mesh.X[static_cast<std::size_t>(node)]));
+    }
+  return reach;
+}
+
+// A pressure acts on its whole set, also where a plate with a hole covers it.
+void warn_of_pressure_under_plates(const Voice& voice, const Run& run) {
+  for (const RigidContact& contact : run.scene.contacts) {
+    const std::optional<RoundHole> hole = hole_of(contact.shape);
+    if (!hole) continue;
+    for (const SurfaceLoad& load : run.scene.loads) {
+      if (load.pressure == 0 && !load.volume) continue;
+      const double reach = reach_under_plate(run.mesh, contact, *hole, load);
+      if (reach == 0) continue;
+      voice.warn(fmt::format(
+          "contacts.{}: a pressure also acts under the plate: its set reaches {:.4g} mm from the "
+          "axis of the hole, and the plate is flat from {:.4g} mm on",
+          contact.name, reach, hole->radius + hole->edge));
+    }
+  }
+}
+
 }  // namespace
 
 double report_scene(const Voice& voice, const Run& run) {
   for (const Material& m : run.scene.materials)
     if (at_rest(m) == AtRest::unstable) voice.warn("a law is " + at_rest_in_words(m));
+  warn_of_pressure_under_plates(voice, run);
   FibreJump jump = FibreJump{};
   if (run.scene.families() > 0) jump = largest_jump(run.mesh, run.scene.directions);
   if (jump.degrees > 1e-3)

@@ -10,8 +10,8 @@
 
 namespace langer {
 
-// laws that are unstable at rest (a warning), fibres that turn between neighbours, the reduction;
-// returns the largest turn [degrees]
+// laws that are unstable at rest and pressures under a plate (warnings), fibres that turn between
+// neighbours, the reduction; returns the largest turn [degrees]
 double report_scene(const Voice& voice, const Run& run);
 
 // Motions that only contact resists, in words; empty where there are none. Throws Failure(config)
