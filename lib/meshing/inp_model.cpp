@@ -71,11 +71,14 @@ class ModelReader {
   std::string part_;      // key of the one that is open
   std::string material_;  // likewise
   InpCard card_;
-  std::string type_;                // of the cells, as the file calls it first
-  int nodes_of_element_ = 0;        // that the open *ELEMENT card expects
-  bool faces_ = false;              // the open *ELEMENT card has no cells but faces
-  std::vector<long long> element_;  // number and nodes as far as they are read
-  Place element_place_;
+  std::string type_;  // of the cells, as the file calls it first
+  struct OpenElement {
+    int n_nodes = 0;                 // that its card expects
+    bool is_face = false;            // its card has no cells but faces
+    std::vector<long long> numbers;  // its own and those of its nodes, as far as they are read
+    Place place;
+  };
+  OpenElement element_;
 
   InpScope& scope() {
     if (block_ == Block::part) return parts_.at(part_);
@@ -216,15 +219,15 @@ class ModelReader {
       }
       model_.kind = *kind;
       if (type_.empty()) type_ = type;
-      nodes_of_element_ = static_cast<int>(kind->theirs->order.size());
-      faces_ = false;
+      element_.n_nodes = static_cast<int>(kind->theirs->order.size());
+      element_.is_face = false;
     } else if (type.starts_with("C3D")) {
       refuse_inp(card_.place, "found elements " + type, known_inp_cells());
     } else if (const auto nodes = nodes_of_face(type)) {
       // Gmsh's plane elements only mark facets. A shell has a stiffness, which is lost.
       if (!type.starts_with("CP")) model_.left_out.insert("elements " + type);
-      nodes_of_element_ = *nodes;
-      faces_ = true;
+      element_.n_nodes = *nodes;
+      element_.is_face = true;
     } else {
       model_.left_out.insert("elements " + type);
       card_.word = "";
@@ -232,7 +235,7 @@ class ModelReader {
     }
     if (const std::string name = card_.value("ELSET"); !name.empty()) {
       const std::string key = add_set(scope().element_sets, name);
-      if (!faces_) add_once(scope().cells_by_card, key);
+      if (!element_.is_face) add_once(scope().cells_by_card, key);
     }
   }
 
@@ -311,30 +314,30 @@ class ModelReader {
 
   // The nodes of an element may take several lines.
   void read_element(const InpLine& line) {
-    if (element_.empty()) element_place_ = line.place;
+    if (element_.numbers.empty()) element_.place = line.place;
     for (const std::string& cell : line.cells) {
-      if (!cell.empty()) element_.push_back(whole_number(cell, line.place));
+      if (!cell.empty()) element_.numbers.push_back(whole_number(cell, line.place));
     }
-    if (static_cast<int>(element_.size()) > nodes_of_element_) end_element();
+    if (static_cast<int>(element_.numbers.size()) > element_.n_nodes) end_element();
   }
 
   // Stores the element whose nodes have been read; called at its last node and at the next card.
   void end_element() {
-    if (element_.empty()) return;
-    const int found = static_cast<int>(element_.size()) - 1;
-    if (found != nodes_of_element_) {
+    if (element_.numbers.empty()) return;
+    const int found = static_cast<int>(element_.numbers.size()) - 1;
+    if (found != element_.n_nodes) {
       refuse_inp(
-          element_place_, fmt::format("an element of {} nodes", found),
-          fmt::format("{} nodes, on one line or on lines ending with a comma", nodes_of_element_));
+          element_.place, fmt::format("an element of {} nodes", found),
+          fmt::format("{} nodes, on one line or on lines ending with a comma", element_.n_nodes));
     }
-    const long long id = element_[0];
-    InpElement element{{element_.begin() + 1, element_.end()}, element_place_};
+    const long long id = element_.numbers[0];
+    InpElement element{{element_.numbers.begin() + 1, element_.numbers.end()}, element_.place};
     // of a face only its corners count: 4 of 4 or 8 nodes, 3 of 3 or 6
-    if (faces_) element.nodes.resize(nodes_of_element_ % 4 == 0 ? 4 : 3);
+    if (element_.is_face) element.nodes.resize(element_.n_nodes % 4 == 0 ? 4 : 3);
     if (scope().cells.count(id) || scope().faces.count(id)) {
-      refuse_inp(element_place_, fmt::format("element {} is there twice", id));
+      refuse_inp(element_.place, fmt::format("element {} is there twice", id));
     }
-    if (faces_) {
+    if (element_.is_face) {
       scope().faces.emplace(id, std::move(element));
     } else {
       scope().cells.emplace(id, std::move(element));
@@ -343,7 +346,7 @@ class ModelReader {
       InpSets& sets = scope().element_sets;
       sets[add_set(sets, name)].members.push_back({own_scope, id, id, 1});
     }
-    element_.clear();
+    element_.numbers.clear();
   }
 
   int find_instance(const std::string& name) const {

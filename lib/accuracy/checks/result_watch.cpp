@@ -48,9 +48,9 @@ void ResultWatch::look(double t, const VecX& u, const SolveReport& report) {
   residual_ = report.residual;
   reactions_ = std::max(reactions_, report.reference);
   asked_ = std::max(asked_, report.asked);
-  if (report.tolerance > report.asked && report.tolerance > raised_) {
-    raised_ = report.tolerance;
-    raised_at_ = t;
+  if (report.tolerance > report.asked && report.tolerance > raised_.tolerance) {
+    raised_.tolerance = report.tolerance;
+    raised_.t = t;
   }
   if (may_lock_) {
     const Locking now = locking(body_, u);
@@ -79,10 +79,10 @@ void ResultWatch::look_at_branches() {
         place = gauss_position(body_.mesh(), e, g);
       }
     }
-  if (given > given_) {
-    given_ = given;
-    given_at_ = t_;
-    given_place_ = place;
+  if (given > given_.share) {
+    given_.share = given;
+    given_.t = t_;
+    given_.place = place;
   }
 }
 
@@ -96,11 +96,12 @@ void ResultWatch::look_at_chains(const VecX& u) {
       const double stretch =
           (Mat3::Identity() + H).norm() / std::sqrt(3.0) / std::cbrt(1 + volume_change(H));
       if (stretch <= law->locking_stretch ||
-          stretch / law->locking_stretch <= chains_ / std::max(locking_stretch_, 1e-300))
+          stretch / law->locking_stretch <=
+              chains_.stretch / std::max(chains_.locking_stretch, 1e-300))
         continue;
-      chains_ = stretch;
-      locking_stretch_ = law->locking_stretch;
-      chains_place_ = gauss_position(body_.mesh(), e, g);
+      chains_.stretch = stretch;
+      chains_.locking_stretch = law->locking_stretch;
+      chains_.place = gauss_position(body_.mesh(), e, g);
     }
   }
 }
@@ -131,7 +132,7 @@ std::string ResultWatch::soft_enough() const {
   const auto* law = std::get_if<QuadraticVolume>(&stiffest_);
   double present = 2 / bulk_modulus(stiffest_);
   if (law) present = law->d;
-  const double d = rounded_up(present * raised_ / std::max(asked_, 1e-300));
+  const double d = rounded_up(present * raised_.tolerance / std::max(asked_, 1e-300));
   if (law) return fmt::format("d: {:.0e}", d);
   return fmt::format("bulk_modulus: {:.0e}", 2 / d);
 }
@@ -155,22 +156,22 @@ std::vector<std::string> ResultWatch::warnings() const {
         names(type)[static_cast<int>(type)], cause, place_text(locking_.place), size, amount,
         names(usual_formulation(type))[static_cast<int>(usual_formulation(type))]));
   }
-  if (raised_ > asked_)
+  if (raised_.tolerance > asked_)
     lines.push_back(fmt::format(
         "the residual's tolerance was raised from {:.1g} N to {:.1g} N at t = {:.4g}, {:.1g} % of the reactions: "
         "with {} rounding allows no less; {} leaves what was asked",
-        asked_, raised_, raised_at_, 100 * raised_ / std::max(reactions_, 1e-300), stiffness(),
-        soft_enough()));
-  if (given_ > 1e-4)
+        asked_, raised_.tolerance, raised_.t,
+        100 * raised_.tolerance / std::max(reactions_, 1e-300), stiffness(), soft_enough()));
+  if (given_.share > 1e-4)
     lines.push_back(fmt::format(
         "the dissipation is negative in {:.2g} % of the volume at t = {:.4g}, most near {}: along such paths the linear "
         "evolution of the viscous branches gives work for nothing, and its stresses mean little",
-        100 * given_, given_at_, place_text(given_place_)));
-  if (chains_ > 0)
+        100 * given_.share, given_.t, place_text(given_.place)));
+  if (chains_.stretch > 0)
     lines.push_back(fmt::format(
         "the chains of arruda_boyce are stretched to {:.4g} near {}, beyond their locking_stretch of {:.4g}: the "
         "series of five terms that the law is continues there, the chains do not",
-        chains_, place_text(chains_place_), locking_stretch_));
+        chains_.stretch, place_text(chains_.place), chains_.locking_stretch));
   return lines;
 }
 

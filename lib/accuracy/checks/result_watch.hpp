@@ -39,12 +39,21 @@ class ResultWatch {
   Volume stiffest_;  // of all materials
   Locking locking_;  // where the stored energy was largest
   double t_ = 0, residual_ = 0;
-  double reactions_ = 0, asked_ = 0;   // largest on the path [N]
-  double raised_ = 0, raised_at_ = 0;  // largest tolerance that was, and where
-  double chains_ = 0, locking_stretch_ = 0;
-  Vec3 chains_place_ = Vec3::Zero();
-  double given_ = 0, given_at_ = 0;  // largest share of the volume with such points, and where
-  Vec3 given_place_ = Vec3::Zero();
+  double reactions_ = 0, asked_ = 0;  // largest on the path [N]
+  struct Raised {                     // the largest tolerance that was
+    double tolerance = 0, t = 0;      // [N]
+  };
+  Raised raised_;
+  struct Chains {  // that are longest for their locking stretch
+    double stretch = 0, locking_stretch = 0;
+    Vec3 place = Vec3::Zero();
+  };
+  Chains chains_;
+  struct Given {              // where branches give energy
+    double share = 0, t = 0;  // largest of the volume
+    Vec3 place = Vec3::Zero();
+  };
+  Given given_;
 };
 
 }  // namespace langer

@@ -31,15 +31,13 @@ StabilityWatch::Reach reach_of(const Run& run, const SolveConfig& config) {
 
 RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where, StudyRecord tests)
     : run_(run),
-      when_(config.stability),
-      locate_(config.critical),
-      on_unstable_(config.on_unstable),
-      breaking_at_each_step_(breaking_at_each_step(run, config)),
+      asked_{config.stability, config.critical, config.on_unstable,
+             breaking_at_each_step(run, config)},
       stability_(std::move(tests), reach_of(run, config)),
       result_(run.body),
       search_(run) {
   if (!run.scene.contacts.empty()) contact_.emplace(run.mesh, run.scene, where);
-  if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && when_ != StabilityCheck::off) {
+  if (Assembler* mesh = run.reduction.mesh_of_point(); mesh && asked_.when != StabilityCheck::off) {
     IncrementOptions options;
     options.threads = config.blas_threads;
     options.signs_from_cells = true;  // the elements of a homogeneous body deform alike
@@ -50,14 +48,14 @@ RunWatch::RunWatch(Run& run, const SolveConfig& config, const Run::Where& where,
 // Whether states are kept to search between them: elastic bodies, whose states do not depend on how
 // they were reached, and whose tangent is factorized.
 bool RunWatch::follows_states() const {
-  return locate_ == LocateCritical::automatic && when_ != StabilityCheck::off &&
-         when_ != StabilityCheck::last && !mesh_ && !run_.body.viscous() &&
+  return asked_.locate == LocateCritical::automatic && asked_.when != StabilityCheck::off &&
+         asked_.when != StabilityCheck::last && !mesh_ && !run_.body.viscous() &&
          run_.increment.bonds().none() && !run_.increment.iterative() && !run_.body.division();
 }
 
 // state: of an elastic body; else nullptr
 void RunWatch::take_losses(const StepRecord& record, const BodyState* state) {
-  const bool off = locate_ == LocateCritical::off || when_ == StabilityCheck::off;
+  const bool off = asked_.locate == LocateCritical::off || asked_.when == StabilityCheck::off;
   const bool looked_at = state && !off && !mesh_ && !run_.body.viscous() && !run_.body.division() &&
                          run_.scene.surfaces.empty();
   if (looked_at) losses_.take_surface(record, *state, run_);
@@ -65,7 +63,8 @@ void RunWatch::take_losses(const StepRecord& record, const BodyState* state) {
 }
 
 void RunWatch::locate(const RunEnd& end, bool only_contact) {
-  if (critical() || locate_ == LocateCritical::off || when_ == StabilityCheck::off) return;
+  if (critical() || asked_.locate == LocateCritical::off || asked_.when == StabilityCheck::off)
+    return;
   if (only_contact) {
     if (auto lost = losses_.support(end, run_.path.smallest)) {
       know(std::move(*lost));
@@ -113,11 +112,11 @@ bool RunWatch::breaking_at(bool at_end) const {
   if (run_.body.division() || run_.increment.iterative())
     return false;  // no factor that shows signs
   if (at_end) return true;
-  return breaking_at_each_step_;
+  return asked_.breaking_at_each_step;
 }
 
 int RunWatch::signatures_at_each_step() const {
-  const bool at_the_end = when_ == StabilityCheck::off || when_ == StabilityCheck::last;
+  const bool at_the_end = asked_.when == StabilityCheck::off || asked_.when == StabilityCheck::last;
   if (mesh_ || at_the_end || !breaking_at(false)) return 0;
   const std::size_t breaking = run_.reduction.symmetry_breaking_dofs().size();
   return breaking > 0 ? 1 + static_cast<int>(breaking) : 0;
@@ -148,7 +147,8 @@ std::optional<StabilityReport> RunWatch::report_of_point(const StepRecord& recor
 bool RunWatch::of_part(StepRecord& record) {
   turning_.take(record, run_.scene.stops);
   const bool at_end = at_end_of_path(record.t);
-  if (when_ == StabilityCheck::off || (when_ == StabilityCheck::last && !at_end)) return true;
+  if (asked_.when == StabilityCheck::off || (asked_.when == StabilityCheck::last && !at_end))
+    return true;
   const std::optional<StabilityReport> report = report_of(record);
   if (!report) return true;
   if (follows_states() && report->signature) {
@@ -160,12 +160,12 @@ bool RunWatch::of_part(StepRecord& record) {
     n_indefinite_ = run_.increment.n_indefinite();
     search_.take({record.t, run_.increment.accepted(), negative}, doubtful);
   }
-  if (on_unstable_ == OnUnstable::stop && !critical()) search_.search_jump();
+  if (asked_.on_unstable == OnUnstable::stop && !critical()) search_.search_jump();
   stability_.keep(*report);
-  if (when_ != StabilityCheck::last) stability_.add_to(record, *report);
+  if (asked_.when != StabilityCheck::last) stability_.add_to(record, *report);
   take_losses(record, &run_.increment.accepted());
   last_said_ = in_words(*report);
-  if (on_unstable_ != OnUnstable::stop) return true;
+  if (asked_.on_unstable != OnUnstable::stop) return true;
   if (search_.jumped()) last_said_ = "reached by a jump past a limit point";
   if (last_said_.empty()) return true;
   unstable_ = fmt::format("unstable at t = {:.6g}: {}", record.t, last_said_);
@@ -204,7 +204,7 @@ std::vector<Summary> RunWatch::contact_summary() const {
 }
 
 std::vector<Summary> RunWatch::stability_summary() const {
-  if (when_ == StabilityCheck::off) return std::vector<Summary>{};
+  if (asked_.when == StabilityCheck::off) return std::vector<Summary>{};
   std::vector<Summary> all = stability_.summary();
   if (critical()) {
     all.push_back({"critical_t", critical()->t, "-"});
@@ -217,7 +217,7 @@ std::vector<Summary> RunWatch::stability_summary() const {
 }
 
 std::vector<TextResult> RunWatch::texts() const {
-  if (when_ == StabilityCheck::off) return {};
+  if (asked_.when == StabilityCheck::off) return {};
   if (critical())
     return {{"critical_kind", critical()->kind}, {"critical_symmetry", critical()->symmetry}};
   if (!turning_.found().empty()) return {{"critical_kind", "limit point of load"}};

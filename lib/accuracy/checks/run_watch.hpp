@@ -76,10 +76,13 @@ class RunWatch {
   void take_losses(const StepRecord& record, const BodyState* state);
 
   Run& run_;
-  StabilityCheck when_;
-  LocateCritical locate_;
-  OnUnstable on_unstable_;
-  bool breaking_at_each_step_;     // movements that break the symmetry, not at the end only
+  struct Asked {
+    StabilityCheck when;
+    LocateCritical locate;
+    OnUnstable on_unstable;
+    bool breaking_at_each_step;  // movements that break the symmetry, not at the end only
+  };
+  Asked asked_;
   std::optional<Increment> mesh_;  // of a homogeneous body, whose stability is that of its mesh
   std::optional<SymmetryBreaking> breaking_;
   StabilityWatch stability_;

@@ -159,9 +159,8 @@ StabilityReport StabilityWatch::look(const Assembler& body, const BodyState& sta
     const int n_gauss = body.geometry(e).n_gauss();
     for (int g = 0; g < n_gauss; ++g)
       cell_volume += body.geometry(e).w[g] * points.J[g] / body.geometry(e).V;
-    if (std::abs(cell_volume - 1) > report.volume_change) {
-      report.volume_change = std::abs(cell_volume - 1);
-      report.volume_place = gauss_position(body.mesh(), e, 0);
+    if (std::abs(cell_volume - 1) > report.volume_change.value) {
+      report.volume_change = {std::abs(cell_volume - 1), gauss_position(body.mesh(), e, 0)};
     }
     for (int g = 0; g < n_gauss; ++g) {
       const double w = body.geometry(e).w[g];
@@ -232,7 +231,7 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;
   for (int k = 0; k < 3; ++k) s[std::string("weakest_") + "xyz"[k]] = r.place[k];
-  s["volume_change"] = r.volume_change;
+  s["volume_change"] = r.volume_change.value;
   s["unstable_volume"] = r.lost;
   if (r.fibre_max > 0) {
     s["isochoric_fibre_stretch_min"] = r.fibre_min;
@@ -267,10 +266,7 @@ void StabilityWatch::keep(const StabilityReport& r) {
   if (r.breaking) most_breaking_ = std::max(most_breaking_, r.breaking->negative);
   equilibrium_.add(r.t, r.equilibrium_unstable());
   material_.add(r.t, r.material_unstable());
-  if (r.volume_change > volume_change_) {
-    volume_change_ = r.volume_change;
-    volume_place_ = r.volume_place;
-  }
+  if (r.volume_change.value > volume_change_.value) volume_change_ = r.volume_change;
   outside_.add(r.t, r.outside > 0);
   falling_.add(r.t, r.falling);
 }
@@ -310,13 +306,13 @@ std::vector<std::string> StabilityWatch::warnings() const {
         "unstable material at {}: at the end {} of the volume has lost strong ellipticity (minimum "
         "acoustic eigenvalue {:.3g} MPa near {}): the solution depends on the mesh there",
         material_.text(), percent(last_.lost), last_.stiffness, place_text(last_.place)));
-  if (volume_change_ > most_volume_change) {
+  if (volume_change_.value > most_volume_change) {
     lines.push_back(fmt::format(
         "an element near {} changes its volume by {}: the stresses there come near the bulk "
         "modulus, and soft tissue keeps its volume; a larger bulk modulus (a smaller d) keeps it. "
         "If the material is nearly incompressible already, look at stiff fibres (c2) and at the "
         "strains there",
-        place_text(volume_place_), percent(volume_change_)));
+        place_text(volume_change_.place), percent(volume_change_.value)));
   }
   if (!falling_.of.empty())
     lines.push_back(fmt::format(

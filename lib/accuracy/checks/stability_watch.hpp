@@ -26,6 +26,12 @@ namespace langer {
 
 StudyRecord study_from(const std::string& material_file);  // nothing in a YAML file
 
+// The largest of a cell that its material resists.
+struct VolumeChange {
+  double value = 0;  // |V / V0 - 1|
+  Vec3 place = Vec3::Zero();
+};
+
 struct StabilityReport {
   double t = 0;
   std::optional<Signature> signature;  // none: not looked at, as the tangent is solved iteratively
@@ -35,8 +41,7 @@ struct StabilityReport {
   double stiffness = 0;  // smallest, in the whole body [MPa]
   int cell = -1;         // where; reference position of the Gauss point [mm]
   Vec3 place = Vec3::Zero();
-  double volume_change = 0;  // largest of a cell that its material resists: |V / V0 - 1|
-  Vec3 volume_place = Vec3::Zero();
+  VolumeChange volume_change;
   double lost = 0;  // share of the volume with a negative one
   double fibre_min = std::numeric_limits<double>::infinity(),
          fibre_max = 0;  // sqrt(I4_bar); no fibres: max < min
@@ -93,8 +98,7 @@ class StabilityWatch {
   double force_before_ = 0, t_before_ = -1;
   StabilityReport last_;
   std::set<int> lowest_cells_;  // of the last step
-  double volume_change_ = 0;
-  Vec3 volume_place_ = Vec3::Zero();
+  VolumeChange volume_change_;
   int most_negative_ = 0, steps_unstable_ = 0;
   int most_breaking_ = 0;      // of them in movements that break the symmetry
   std::optional<bool> signs_;  // whether signatures are looked at: as at the first step, so that

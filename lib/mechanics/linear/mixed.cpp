@@ -49,14 +49,14 @@ MixedSolver::MixedSolver(const Pattern& pattern, const std::vector<int>& dof_of_
       schur_(renumbered(cell_rows_, block_row_), rows_of_nodes(block_row_), division, threads),
       cycle_(module.multigrid(ranks_)) {
   const auto rows = static_cast<std::size_t>(rows_of_nodes(block_row_));
-  start_.assign(rows + 1, 0);
+  A_.start.assign(rows + 1, 0);
   for (int column = 0; column < pattern.n; ++column)
     for (int at = pattern.column_start[column]; at < pattern.column_start[column + 1]; ++at) {
-      ++start_[block_row_[column] + 1];
-      if (pattern.row[at] != column) ++start_[block_row_[pattern.row[at]] + 1];
+      ++A_.start[block_row_[column] + 1];
+      if (pattern.row[at] != column) ++A_.start[block_row_[pattern.row[at]] + 1];
     }
-  for (std::size_t row = 1; row < start_.size(); ++row)
-    start_[row] = start_[row - 1] + std::max(start_[row], 1);
+  for (std::size_t row = 1; row < A_.start.size(); ++row)
+    A_.start[row] = A_.start[row - 1] + std::max(A_.start[row], 1);
   if (!division) {
     own_.resize(static_cast<std::size_t>(n_cells()));
     std::iota(own_.begin(), own_.end(), 0);
@@ -105,15 +105,15 @@ VecX MixedSolver::diagonal_of(const std::vector<double>& A) const {
 
 // A as full rows, from its lower triangle by columns.
 void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
-  const std::size_t rows = start_.size() - 1;
-  if (column_.empty()) {
-    column_.resize(start_.back());
-    value_.resize(start_.back());
+  const std::size_t rows = A_.start.size() - 1;
+  if (A_.column.empty()) {
+    A_.column.resize(A_.start.back());
+    A_.value.resize(A_.start.back());
   }
-  std::vector<int> to(start_.begin(), start_.end() - 1);
+  std::vector<int> to(A_.start.begin(), A_.start.end() - 1);
   const auto put = [&](int row, int column, double value) {
-    column_[to[row]] = column;
-    value_[to[row]++] = value;
+    A_.column[to[row]] = column;
+    A_.value[to[row]++] = value;
   };
   // entries left of the diagonal first, so that the columns of each row ascend
   for (int column = 0; column < pattern_.n; ++column)
@@ -125,13 +125,14 @@ void MixedSolver::fill(const std::vector<double>& A, const VecX& diagonal) {
     for (int at = pattern_.column_start[column]; at < pattern_.column_start[column + 1]; ++at)
       put(block_row_[column], block_row_[pattern_.row[at]], A[at]);
   }
-  inverse_diagonal_.assign(rows, 0);
+  A_.inverse_diagonal.assign(rows, 0);
   // Held directions of nodes that are free in others get a diagonal entry, added by one rank.
   double held = 0;
   if (!ranks_ || ranks_->first()) held = sum / pattern_.n;
   for (std::size_t row = 0; row < rows; ++row)
-    if (to[row] == start_[row]) put(static_cast<int>(row), static_cast<int>(row), held);
-  for (int row = 0; row < pattern_.n; ++row) inverse_diagonal_[block_row_[row]] = 1 / diagonal[row];
+    if (to[row] == A_.start[row]) put(static_cast<int>(row), static_cast<int>(row), held);
+  for (int row = 0; row < pattern_.n; ++row)
+    A_.inverse_diagonal[block_row_[row]] = 1 / diagonal[row];
 }
 
 VecX MixedSolver::times(const VecX& x) const {
@@ -142,7 +143,8 @@ VecX MixedSolver::times(const VecX& x) const {
   }
   for (Eigen::Index row = 0; row < x.size(); ++row) {
     double sum = 0;
-    for (int at = start_[row]; at < start_[row + 1]; ++at) sum += value_[at] * x[column_[at]];
+    for (int at = A_.start[row]; at < A_.start[row + 1]; ++at)
+      sum += A_.value[at] * x[A_.column[at]];
     y[row] = sum;
   }
   return y;
@@ -154,7 +156,7 @@ bool MixedSolver::factorize_schur(const std::vector<double>& b, const std::vecto
   for (std::size_t k = 0; k < scaled.size(); ++k) {
     const int row = cell_rows_[k];
     if (row >= 0 && !fixed[row]) {
-      scaled[k] *= std::sqrt(inverse_diagonal_[block_row_[row]]);
+      scaled[k] *= std::sqrt(A_.inverse_diagonal[block_row_[row]]);
     } else {
       scaled[k] *= 0;
     }
@@ -178,17 +180,17 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
     why = "the Schur complement of the pressures is not positive definite";
     return false;
   }
-  MatX modes = MatX::Zero(static_cast<Eigen::Index>(start_.size()) - 1, rigid.cols());
+  MatX modes = MatX::Zero(static_cast<Eigen::Index>(A_.start.size()) - 1, rigid.cols());
   for (int row = 0; row < pattern_.n; ++row) modes.row(block_row_[row]) = rigid.row(row);
   const NoTraps in_petsc;
-  const petsc_module::Rows rows{static_cast<int>(start_.size()) - 1, start_.data(), column_.data(),
-                                value_.data(), rank_of_node_.data()};
+  const petsc_module::Rows rows{static_cast<int>(A_.start.size()) - 1, A_.start.data(),
+                                A_.column.data(), A_.value.data(), rank_of_node_.data()};
   preconditioned_ = cycle_->setup(rows, modes.data(), again_, why);
   again_ = preconditioned_;
   if (ranks_) {
     // PETSc has the whole rows of this rank
-    column_ = {};
-    value_ = {};
+    A_.column = {};
+    A_.value = {};
   }
   return preconditioned_;
 }
@@ -196,7 +198,7 @@ bool MixedSolver::precondition(const std::vector<double>& A, const std::vector<d
 // The preconditioner: pressures by the Schur complement, then displacements by a multigrid cycle
 // with these pressures.
 VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
-  const Eigen::Index rows = static_cast<Eigen::Index>(start_.size()) - 1;
+  const Eigen::Index rows = static_cast<Eigen::Index>(A_.start.size()) - 1;
   const Eigen::Index n = pattern_.n;
   VecX free = VecX::Zero(n);
   VecX block = VecX::Zero(rows);
@@ -210,7 +212,7 @@ VecX MixedSolver::apply(const std::vector<double>& b, const VecX& r) const {
       if (!fixed_[row]) free[row] = of[block_row_[row]];
     }
   };
-  const Eigen::Map<const VecX> M(inverse_diagonal_.data(), rows);
+  const Eigen::Map<const VecX> M(A_.inverse_diagonal.data(), rows);
   const VecX pressed = schur_.solve(r.tail(n_cells()));
   spread(b, pressed, free);
   to_block();
@@ -269,7 +271,7 @@ double MixedSolver::bytes() const {
   // A by rows, about as much again in its coarser levels and its incomplete factors; L; the vectors
   // of GMRES
   double entries = 0;
-  if (!start_.empty()) entries = start_.back();
+  if (!A_.start.empty()) entries = A_.start.back();
   double share = 1;
   if (ranks_) share = 1.0 / ranks_->n();
   return (ranks_ ? 4.7 : 2.6) * 12 * entries + schur_.size().factor_bytes +

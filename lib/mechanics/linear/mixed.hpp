@@ -85,9 +85,12 @@ class MixedSolver {
   std::vector<int> own_;           // cells
   std::vector<int> rank_of_node_;  // of several ranks
   std::vector<int> cell_rows_;
-  std::vector<int> block_row_;       // of each row: 3 times the number of its node, plus its axis
-  std::vector<int> start_, column_;  // A by rows, three for each node
-  std::vector<double> value_, inverse_diagonal_;
+  std::vector<int> block_row_;  // of each row: 3 times the number of its node, plus its axis
+  struct Rows {                 // of A, three for each node
+    std::vector<int> start, column;
+    std::vector<double> value, inverse_diagonal;
+  };
+  Rows A_;
   VecX inverse_D_;
   std::vector<char> fixed_;
   PressureSchur schur_;

@@ -83,7 +83,7 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
     return;
   }
   if (last_.empty() || !loose) return;
-  loose_ = node_stiffness(
+  springs_.loose = node_stiffness(
       body);  // the weak resistance of contact to a free motion stays visible beside it
 }
 
@@ -122,7 +122,7 @@ TangentFactor::TangentFactor(const Assembler& body, const std::vector<RigidConta
   linear_ = std::make_unique<LinearSolver>(body.pattern(), last_, threads);
   // Inertia resists every motion.
   if (body.added_term() || last_.empty()) return;
-  if (any_is_free(body.mesh(), dofs)) loose_ = node_stiffness(body);
+  if (any_is_free(body.mesh(), dofs)) springs_.loose = node_stiffness(body);
 }
 
 void TangentFactor::eliminate_last(const Dofs& dofs, const std::vector<int>& nodes) {
@@ -168,7 +168,7 @@ LinearSolver::Size TangentFactor::size() const {
 }
 
 void TangentFactor::begin_increment() {
-  supported_ = false;
+  springs_.act = false;
   if (!mixed_) return;
   if (by_factor_) {
     linear_.reset();
@@ -181,7 +181,7 @@ void TangentFactor::begin_increment() {
 bool TangentFactor::factorize(const Assembler& body) {
   ++counts_.factorizations;
   kind_ = Kind::whole;
-  if (!supported_ && loose_ == 0 && linear_->factorize(body.K())) return true;
+  if (!springs_.act && springs_.loose == 0 && linear_->factorize(body.K())) return true;
   ++counts_.indefinite;
   // springs on all candidates hold what contact may hold
   take_level(body, levels_.all());
@@ -199,21 +199,21 @@ bool TangentFactor::factorize_supported(const Assembler& body) {
     diagonal += std::abs(body.K()[pattern.column_start[row]]) / static_cast<double>(last_.size());
   const auto K_with_springs = [&] {
     std::vector<double> K = body.K();
-    for (int row : last_) K[pattern.column_start[row]] += gamma_;
+    for (int row : last_) K[pattern.column_start[row]] += springs_.gamma;
     return K;
   };
-  for (double spring : {loose_, diagonal, 30 * diagonal, 1000 * diagonal}) {
-    if (spring == 0 || (supported_ && spring < 0.5 * gamma_))
+  for (double spring : {springs_.loose, diagonal, 30 * diagonal, 1000 * diagonal}) {
+    if (spring == 0 || (springs_.act && spring < 0.5 * springs_.gamma))
       continue;  // softer springs were not enough in this increment
-    gamma_ = spring;
-    if (linear_->factorize(K_with_springs())) return supported_ = true;
+    springs_.gamma = spring;
+    if (linear_->factorize(K_with_springs())) return springs_.act = true;
   }
   // The body itself gives way. In a few directions stabilisation springs help; where they are many,
   // the increment was too long: K there says nothing, and the same point comes within reach by
   // shorter ones.
   kind_ = Kind::indefinite;
   ++counts_.unstable;
-  return supported_ = linear_->factorize_with_springs(K_with_springs());
+  return springs_.act = linear_->factorize_with_springs(K_with_springs());
 }
 
 bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
@@ -229,7 +229,7 @@ bool TangentFactor::factorize_with_contact(const std::vector<double>& values) {
 bool TangentFactor::factorize_fixed_reactions(const Assembler& body) {
   ++counts_.factorizations;
   kind_ = Kind::whole;
-  supported_ = false;
+  springs_.act = false;
   if (linear_->factorize(body.K())) return true;
   ++counts_.indefinite;
   kind_ = Kind::indefinite;

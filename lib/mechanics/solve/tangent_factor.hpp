@@ -50,7 +50,9 @@ class TangentFactor {
   void take_level(const Assembler& body, int level);
   // whether candidates stand among the other rows
   bool leaves_out() const { return !last_.empty() && level_ < levels_.all(); }
-  bool may_leave_out() const { return !candidates_.empty() && !last_.empty() && loose_ == 0; }
+  bool may_leave_out() const {
+    return !candidates_.empty() && !last_.empty() && springs_.loose == 0;
+  }
 
   // Springs that one tangent of an increment needed are there for all that follow in it.
   void begin_increment();
@@ -77,9 +79,9 @@ class TangentFactor {
 
   Kind kind() const { return kind_; }
   ContactInTangent* in_tangent() const { return in_tangent_.get(); }  // none: contact is condensed
-  bool with_springs() const { return supported_; }                    // on the candidates
-  double gamma() const { return gamma_; }                             // [N/mm]
-  bool held_by_contact() const { return loose_ > 0; }  // the supports leave rigid motions
+  bool with_springs() const { return springs_.act; }                  // on the candidates
+  double gamma() const { return springs_.gamma; }                     // [N/mm]
+  bool held_by_contact() const { return springs_.loose > 0; }  // the supports leave rigid motions
   const std::vector<int>& last() const {
     return last_;
   }  // free rows of the candidates, eliminated last
@@ -117,9 +119,12 @@ class TangentFactor {
   int threads_;
   bool by_factor_ = false, gave_up_ = false;
   Kind kind_ = Kind::none;
-  bool supported_ = false;
-  double gamma_ = 0;
-  double loose_ = 0;  // gamma to begin with where the supports leave rigid motions [N/mm]
+  struct Springs {  // on the candidates
+    bool act = false;
+    double gamma = 0;  // [N/mm]
+    double loose = 0;  // gamma to begin with where the supports leave rigid motions [N/mm]
+  };
+  Springs springs_;
   Counts counts_;
 };
 
