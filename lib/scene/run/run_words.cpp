@@ -31,14 +31,17 @@ double reach_under_plate(const Mesh& mesh, const RigidContact& contact, const Ro
                          const SurfaceLoad& load) {
   const std::set<int> candidates(contact.nodes.begin(), contact.nodes.end());
   const double flat_from = (1 + 1e-6) * (hole.radius + hole.edge);
-  const auto under = [&](int node) {
-    const Vec3& x = mesh.X[static_cast<std::size_t>(node)];
-    return candidates.count(node) > 0 && distance_from(hole.axis, x) > flat_from;
+  const auto is_beyond = [&](int node) {
+    return distance_from(hole.axis, mesh.X[static_cast<std::size_t>(node)]) > flat_from;
+  };
+  // Of a section only the nodes in front are candidates.
+  const auto may_touch = [&](int node) {
+    return candidates.count(node) > 0;
   };
   double reach = 0;
   for (const Facet& facet : load.facets)
     for (const auto& quad : facet_quads(mesh, facet)) {
-      if (!std::ranges::all_of(quad, under)) continue;
+      if (!std::ranges::all_of(quad, is_beyond) || !std::ranges::any_of(quad, may_touch)) continue;
       for (int node : quad)
         reach = std::max(reach, distance_from(hole.axis, mesh.X[static_cast<std::size_t>(node)]));
     }
