@@ -10,6 +10,7 @@ namespace langer {
 
 namespace {
 
+constexpr std::size_t per_line = 8;
 constexpr std::size_t most_numbers = 16;  // of one model, with its temperature
 constexpr int most_terms = 3;
 
@@ -151,10 +152,13 @@ std::string volume_of(const InpCard& card, double D, double shear_modulus, std::
 
 void read_hyperelastic(InpMaterial& material, const InpLine& line) {
   if (!material.fault.empty()) return;
+  // Numbers that a line leaves out at its end are 0, and the next line does not take their places.
+  material.numbers.resize(per_line * static_cast<std::size_t>(material.n_lines), 0);
+  ++material.n_lines;
   std::vector<std::string> cells = line.cells;
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
   for (const std::string& cell : cells) {
-    if (material.numbers.size() == most_numbers) {
+    if (material.numbers.size() >= most_numbers) {
       material.fault = fmt::format("more than {} numbers of *HYPERELASTIC", most_numbers);
       return;
     }

@@ -16,9 +16,9 @@
 namespace langer {
 
 struct InpMaterial {
-  std::string name;             // as the file writes it
   InpCard hyperelastic;         // no word: the material has no such card
-  std::vector<double> numbers;  // of its data lines
+  std::vector<double> numbers;  // of its data lines, eight for each but the last
+  int n_lines = 0;              // of data so far
   std::string fault;            // why these cannot be used; empty if they can
 };
 

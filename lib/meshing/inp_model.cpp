@@ -138,9 +138,8 @@ class ModelReader {
 
   // A mesh has no material: the text of a note is made of it (inp_material.hpp).
   void begin_material() {
-    const std::string name = card_.value("NAME");
-    material_ = upper_case(name);
-    model_.materials[material_] = InpMaterial{name, {}, {}, {}};
+    material_ = upper_case(card_.value("NAME"));
+    model_.materials[material_] = {};
   }
 
   void begin_hyperelastic() {
@@ -150,8 +149,8 @@ class ModelReader {
       card_.word = "";
       return;
     }
+    found->second = {};
     found->second.hyperelastic = card_;
-    found->second.numbers.clear();
   }
 
   // What is not understood here is no error: only `frames: file` needs it.

@@ -621,6 +621,9 @@ TEST_CASE("hyperelastic materials of an .inp are text for a solve config") {
   // the twelve numbers of N = 3 stand in two lines
   check(", N=3", "1, 2, 3, 0, 5, 6, 0, 0\n9, 0.5, 0, 0\n",
         "yeoh: {a1: 1, a2: 3, a3: 6}, yeoh_I2: {b1: 2, b2: 5, b3: 9}", "quadratic: {d: 0.5}");
+  // and what the first of them leaves out at its end is 0
+  check(", N=3", "1, 2, 3, 0, 5, 6\n9, 0.5\n",
+        "yeoh: {a1: 1, a2: 3, a3: 6}, yeoh_I2: {b1: 2, b2: 5, b3: 9}", "quadratic: {d: 0.5}");
   check(", OGDEN, N=2", "0.05, 10, 0.02, -4, 0.5\n",
         "ogden: {mu1: 0.01, alpha1: 10, mu2: -0.01, alpha2: -4}", "quadratic: {d: 0.5}");
   check(", ARRUDA-BOYCE", "0.05, 1.3, 0.5\n", "arruda_boyce: {mu: 0.05, locking_stretch: 1.3}",
@@ -649,6 +652,7 @@ TEST_CASE(
   check(", NEO HOOKE", "", "*HYPERELASTIC has 0 numbers instead of 2");
   check(", NEO HOOKE", "0.05, 0.01, 20\n0.04, 0.01, 40\n",
         "*HYPERELASTIC depends on temperature or a field");
+  check(", NEO HOOKE", "0.05\n0.04\n", "*HYPERELASTIC depends on temperature or a field");
   check(", NEO HOOKE", "0.05, -0.01\n", "D1 is negative");
   check(", NEO HOOKE", "-0.05, 0\n", "D1 is 0 and there is no shear modulus at rest");
   check(", NEO HOOKE", "a, 0.01\n", "found \"a, 0.01\" in line 17");
