@@ -97,6 +97,11 @@ class CalculixWriter {
           "** one reduces the penetration. Langer has the exact sphere and no penetration.\n"
           "** RF of the set RIGID_... moves the sphere: it is minus the force on the indenter\n",
           usual_stiffness);
+    if (!deck_.pairs.empty())
+      s_ += fmt::format(
+          "** surfaces touch with penalty contact: stiffness {:g} times the shear modulus per mm; "
+          "Langer has no penetration\n",
+          usual_stiffness);
     if (fibres_touched())
       s_ += fmt::format(
           "** increments of {:g} at most: ELASTIC_FIBER ends the run if an iteration stretches a "
@@ -104,8 +109,8 @@ class CalculixWriter {
           "reducing the increment\n",
           increment_with_fibres);
     body();
-    for (std::size_t c = 0; c < deck_.contacts.size(); ++c)
-      contact(deck_.contacts[c], static_cast<int>(c));
+    for (const DeckContact& c : deck_.contacts) contact(c);
+    for (const DeckPair& p : deck_.pairs) pair(p);
     steps();
     return s_;
   }
@@ -114,7 +119,7 @@ class CalculixWriter {
   const Deck& deck_;
   const Mesh mesh_;
   std::string s_;
-  int next_node_ = 0, next_cell_ = 0;
+  int next_node_ = 0, next_cell_ = 0, next_contact_ = 1;
 
   void node(int number, const Vec3& X) {
     s_ += fmt::format("{}, {:.12g}, {:.12g}, {:.12g}\n", number, X[0], X[1], X[2]);
@@ -196,13 +201,10 @@ class CalculixWriter {
   }
 
   // The surface of the body, the rigid layer of the sphere with its material, and their contact.
-  void contact(const DeckContact& c, int number) {
+  void contact(const DeckContact& c) {
     const std::string name = checked_name(c.law.name);
-    const std::string slave = fmt::format("SLAVE{}", number + 1);
-    const std::string master = fmt::format("MASTER{}", number + 1);
-    s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", slave);
-    for (const Facet& f : c.facets)
-      s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
+    const int number = next_contact_++;
+    surface(fmt::format("SLAVE{}", number), c.facets);
     // The layer of hexahedra between the inner and the outer points of the cap.
     const int n = static_cast<int>(c.cap.outer.size());
     const int first = next_node_;
@@ -219,31 +221,57 @@ class CalculixWriter {
       s_ += "\n";
     }
     next_node_ += 2 * n;
-    s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", master);
+    s_ += fmt::format("*SURFACE, NAME=MASTER{}, TYPE=ELEMENT\n", number);
     for (int e = first_cell; e < next_cell_; ++e) s_ += fmt::format("{}, S2\n", e);
-    // The material of the layer is not stressed, because all its nodes are moved. The penalty is
-    // relative to the softest material of the body.
-    double mu = 1e300;
-    for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
+    // The material of the layer is not stressed, because all its nodes are moved.
     s_ += fmt::format(
         "*MATERIAL, NAME=RIGID_{0}\n*ELASTIC\n{1:.6g}, 0.\n*SOLID SECTION, ELSET=RIGID_{0}, "
         "MATERIAL=RIGID_{0}\n",
-        name, mu);
+        name, softest());
+    interaction(number, c.law.mu);
+  }
+
+  // Two surfaces of the body: its slave is where Langer's contact law holds.
+  void pair(const DeckPair& p) {
+    const int number = next_contact_++;
+    s_ += "** " + checked_name(p.name) + "\n";
+    surface(fmt::format("SLAVE{}", number), p.own);
+    surface(fmt::format("MASTER{}", number), p.other);
+    interaction(number, p.mu);
+  }
+
+  void surface(const std::string& name, const std::vector<Facet>& facets) {
+    s_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", name);
+    for (const Facet& f : facets)
+      s_ += fmt::format("{}, S{}\n", f.cell + 1, side_of_facet[f.local]);
+  }
+
+  // The shear modulus to which penalties are relative.
+  double softest() const {
+    double mu = 1e300;
+    for (const Material& m : deck_.materials) mu = std::min(mu, shear_modulus(m));
+    return mu;
+  }
+
+  // Penalty contact of the surfaces SLAVE and MASTER of this number.
+  void interaction(int number, double friction) {
+    const double mu = softest();
     s_ += fmt::format(
         "*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, "
         "PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n",
-        number + 1, usual_stiffness * mu);
-    if (c.law.mu > 0)
-      s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", c.law.mu, 0.1 * usual_stiffness * mu);
-    s_ += fmt::format("*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=SURFACE TO SURFACE\n{}, {}\n",
-                      number + 1, slave, master);
+        number, usual_stiffness * mu);
+    if (friction > 0)
+      s_ += fmt::format("*FRICTION\n{:.12g}, {:.6g}\n", friction, 0.1 * usual_stiffness * mu);
+    s_ += fmt::format(
+        "*CONTACT PAIR, INTERACTION=CONTACT{0}, TYPE=SURFACE TO SURFACE\nSLAVE{0}, MASTER{0}\n",
+        number);
   }
 
   bool fibres_touched() const {
     const auto is_isotropic = [](const FibreGroup& group) {
       return group.fibres.empty();
     };
-    return !deck_.contacts.empty() && !std::ranges::all_of(deck_.groups, is_isotropic);
+    return deck_.touches() && !std::ranges::all_of(deck_.groups, is_isotropic);
   }
 
   // One step from stop to stop of the path, with the forces that are compared with Langer's.

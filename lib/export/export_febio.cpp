@@ -56,6 +56,7 @@ class FebioWriter {
     materials();
     body();
     for (const DeckContact& c : deck_.contacts) contact(c);
+    for (const DeckPair& p : deck_.pairs) pair(p);
     loads();
     std::string s = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     for (const std::string& line : deck_.words) s += "<!-- " + comment(line) + " -->\n";
@@ -64,6 +65,9 @@ class FebioWriter {
            "the exact sphere -->\n"
            "<!-- *_force.csv: Fx;Fy;Fz of the rigid body, which is minus the force on the indenter "
            "-->\n";
+    if (!deck_.pairs.empty())
+      s +=
+          "<!-- surfaces touch with penalty contact and a small penetration; Langer has none -->\n";
     if (!reactions_.empty())
       s += "<!-- *_reaction.csv: Rx;Ry;Rz of each node of a moved set; their sum is the force on "
            "the set -->\n";
@@ -105,7 +109,7 @@ class FebioWriter {
   // Increments are not longer than `largest` and end where the path turns: FEBio meets the points
   // of the load curve of dtmax exactly.
   std::string control() {
-    const char* const stiffness = deck_.contacts.empty() ? "symmetric" : "non-symmetric";
+    const char* const stiffness = deck_.touches() ? "non-symmetric" : "symmetric";
     const int steps = static_cast<int>(std::ceil(1 / deck_.first - 1e-9));
     std::string stops = fmt::format("<pt>0,{}</pt>", deck_.largest);
     for (double t : deck_.stops) stops += fmt::format("<pt>{},{}</pt>", t, deck_.largest);
@@ -219,7 +223,24 @@ class FebioWriter {
         "body\"><density>1</density><center_of_mass>{}</center_of_mass></material>\n",
         id, name, triple(ball_of(c.law.shape)->centre));
     const std::string face = rigid_cells(c, name);
-    surface_pair(c, name, face);
+    surface_pair(name, facets(c.facets), face);
+    sliding(name, c.law.mu);
+    motion(c, name);
+    logged_ += fmt::format(
+        "      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" "
+        "file=\"{}_force.csv\">{}</rigid_body_data>\n",
+        file_name(c.law.name), id);
+  }
+
+  // Two surfaces of the body.
+  void pair(const DeckPair& p) {
+    const std::string name = xml_text(p.name);
+    surface_pair(name, facets(p.own), facets(p.other));
+    sliding(name, p.mu);
+  }
+
+  // Penalty contact of a pair of surfaces.
+  void sliding(const std::string& name, double friction) {
     contact_ += fmt::format(
         "    <contact name=\"contact_of_{0}\" type=\"sliding-elastic\" "
         "surface_pair=\"pair_of_{0}\">\n      "
@@ -228,12 +249,7 @@ class FebioWriter {
         "<symmetric_stiffness>0</symmetric_stiffness><search_radius>1</"
         "search_radius><fric_coeff>{1}</fric_coeff>\n    "
         "</contact>\n",
-        name, c.law.mu);
-    motion(c, name);
-    logged_ += fmt::format(
-        "      <rigid_body_data data=\"Fx;Fy;Fz\" delim=\",\" "
-        "file=\"{}_force.csv\">{}</rigid_body_data>\n",
-        file_name(c.law.name), id);
+        name, friction);
   }
 
   // Elements between the two layers of the cap of an indenter; returns the facets of the outer
@@ -268,20 +284,25 @@ class FebioWriter {
     return facets;
   }
 
-  // The two surfaces in contact: facets of the body, and `face` of the indenter.
-  void surface_pair(const DeckContact& c, const std::string& name, const std::string& face) {
+  // Facets of the body, as lines of a surface.
+  std::string facets(const std::vector<Facet>& of) const {
     const char* quad = mesh_.cell().names.febio_facet;
-    sets_ += fmt::format("    <Surface name=\"body_of_{}\">\n", name);
-    for (std::size_t f = 0; f < c.facets.size(); ++f) {
+    std::string lines;
+    for (std::size_t f = 0; f < of.size(); ++f) {
       std::vector<int> numbers;
-      for (int node : facet_nodes(mesh_, c.facets[f])) numbers.push_back(node + 1);
-      sets_ += fmt::format("      <{0} id=\"{1}\">{2}</{0}>\n", quad, f + 1, list(numbers));
+      for (int node : facet_nodes(mesh_, of[f])) numbers.push_back(node + 1);
+      lines += fmt::format("      <{0} id=\"{1}\">{2}</{0}>\n", quad, f + 1, list(numbers));
     }
+    return lines;
+  }
+
+  // The two surfaces in contact: facets of the body, and what they touch.
+  void surface_pair(const std::string& name, const std::string& body, const std::string& face) {
     sets_ += fmt::format(
-        "    </Surface>\n    <Surface name=\"face_of_{0}\">\n{1}    </Surface>\n    <SurfacePair "
-        "name=\"pair_of_{0}\"><primary>body_of_{0}</primary>"
+        "    <Surface name=\"body_of_{0}\">\n{1}    </Surface>\n    <Surface name=\"face_of_{0}\">\n{2}"
+        "    </Surface>\n    <SurfacePair name=\"pair_of_{0}\"><primary>body_of_{0}</primary>"
         "<secondary>face_of_{0}</secondary></SurfacePair>\n",
-        name, face);
+        name, body, face);
   }
 
   // The indenter does not turn. It moves from waypoint to waypoint.

@@ -13,7 +13,9 @@
 #include "export/acting.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/reference.hpp"
+#include "mechanics/mesh/section.hpp"
 #include "scene/model/scene.hpp"
+#include "scene/model/scene_bodies.hpp"
 #include "scene/model/scene_symmetry.hpp"
 #include "scene/model/solve_config_io.hpp"
 
@@ -69,13 +71,18 @@ void check_contacts(const SolveConfig& config, const std::string& path) {
           path, "contacts." + name + ".rigid", "an indenter of another shape",
           "a sphere, or no indenter: closest to an ellipsoid is the sphere of its curvature, to a "
           "plane a large sphere");
+  for (const auto& [name, contact] : config.touching)
+    if (contact.on == *contact.against)
+      refuse(path, "contacts." + name + ".against", "a surface that touches itself",
+             "two surfaces");
 }
 
 // The config of the solution with its materials, which the solution stores itself. Refuses
 // everything that no deck can express.
 SolveConfig config_of(const SolutionHeader& header, const std::string& path) {
-  SolveConfig config =
-      read_config<SolveConfig>(parse_yaml(header.identity.config, path + ": config")).config;
+  Tree tree = parse_yaml(header.identity.config, path + ": config");
+  SolveConfig config = read_config<SolveConfig>(tree).config;
+  expand_bodies(config, tree);
   config.fibre_angles.clear();
   config.fibre_field.reset();
   config.materials.clear();
@@ -202,7 +209,12 @@ std::vector<std::string> answers(const SolutionReader& solution, const SolveConf
   for (const auto& [name, contact] : last.contacts) {
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : contact.r) force -= r;
-    answer("the indenter \"" + name + "\"", force);
+    const auto pair = config.touching.find(name);
+    if (pair == config.touching.end()) {
+      answer("the indenter \"" + name + "\"", force);
+    } else {
+      answer("\"" + *pair->second.against + "\" by \"" + pair->second.on + "\"", force);
+    }
   }
   for (const LoadConfig& load : config.loads) {
     Vec3 force = Vec3::Zero();
@@ -224,7 +236,7 @@ std::optional<TooStiff> too_stiff_for_contact(const Deck& deck) {
     const double ratio = bulk_modulus(m) / mu;
     if (mu > 0 && ratio > worst.ratio) worst = {ratio, 2 / (largest_ratio * mu)};
   }
-  if (deck.contacts.empty() || worst.ratio <= largest_ratio * (1 + 1e-9)) return std::nullopt;
+  if (!deck.touches() || worst.ratio <= largest_ratio * (1 + 1e-9)) return std::nullopt;
   return worst;
 }
 
@@ -261,6 +273,7 @@ class DeckComposer {
     add_supports_and_loads();
     add_mirror_planes();
     for (std::size_t c = 0; c < scene().contacts.size(); ++c) add_contact(c);
+    for (const auto& [name, contact] : config_.touching) add_pair(name, contact);
     set_increments();
     add_remarks();
     return std::move(deck_);
@@ -282,6 +295,11 @@ class DeckComposer {
     std::vector<int>& nodes = deck_.mesh.node_sets[set];
     if (!nodes.empty()) return true;
     for (int n : header_.mesh.node_sets.at(set)) {
+      // Nodes of two bodies may be at one place: of the whole they keep their numbers.
+      if (!part_) {
+        nodes.push_back(n);
+        continue;
+      }
       const auto at = number_.find(spot(header_.mesh.X[n]));
       if (at != number_.end()) nodes.push_back(at->second);
     }
@@ -350,6 +368,15 @@ class DeckComposer {
     }
     deck_.contacts.push_back(
         contact_of(deck_.mesh, law, set, (middle - sphere.centre).normalized(), path_));
+  }
+
+  // Two surfaces, which no symmetry has cut.
+  void add_pair(const std::string& name, const ContactConfig& contact) {
+    const Mesh& mesh = header_.mesh;
+    deck_.words.push_back(fmt::format("surfaces \"{}\": \"{}\" against \"{}\", friction {:g}", name,
+                                      contact.on, *contact.against, contact.friction));
+    deck_.pairs.push_back(
+        {name, contact.friction, surface_of(mesh, contact.on), surface_of(mesh, *contact.against)});
   }
 
   // The increments of the config; every kink of the path is a stop.

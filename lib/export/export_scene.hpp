@@ -43,6 +43,13 @@ struct DeckContact {
   RigidCap cap;
 };
 
+// Two surfaces of deformable bodies that may touch.
+struct DeckPair {
+  std::string name;
+  double mu = 0;
+  std::vector<Facet> own, other;  // own: where Langer's contact law holds
+};
+
 // A scene in the terms that all decks share.
 struct Deck {
   Mesh mesh;                        // its node sets: those with supports, movements or contact
@@ -50,6 +57,8 @@ struct Deck {
   std::vector<FibreGroup> groups;
   std::vector<HeldSet> held;
   std::vector<DeckContact> contacts;
+  std::vector<DeckPair> pairs;
+  bool touches() const { return !contacts.empty() || !pairs.empty(); }
   double first = 0.1, largest = 0.1, smallest = 1e-4;  // increments of the path
   std::vector<double> stops;                           // ascending, the last is 1
   double share = 1;                // the whole body is this many times the part that is written
