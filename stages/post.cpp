@@ -132,6 +132,7 @@ bool is_applied_pressure(const QuantityLine& line) {
   return std::string_view(line.word) == "applied_pressure";
 }
 bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
+bool needs_shapes(const QuantityLine& line) { return line.needs.shapes; }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
 
 // Evaluates all measures in all states. Sums along the path (energies) are computed first; contact
@@ -140,10 +141,13 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
                const std::vector<RigidContact>& indenters, const ContactStates& contacts,
                const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
-  const Loads loads = loads_of(solution.reader.header());
-  EnergyPath path = energy_path(solution.body.mesh(), indenters, solution.reader.header());
+  const SolutionHeader& header = solution.reader.header();
+  const Loads loads = loads_of(header);
+  std::vector<SurfaceContact> surfaces;
+  if (any_quantity(measures, needs_shapes)) surfaces = touching_surfaces(header);
+  EnergyPath path = energy_path(solution.body.mesh(), indenters, header, surfaces);
   for (int row = 0; row <= n_steps; ++row)
-    path.add(energy_state(solution.record(row), indenters, loads));
+    path.add(energy_state(solution.record(row), indenters, loads, surfaces));
   const std::vector<PathSums> sums = path.sums();
   const bool areas = any_quantity(measures, is_contact_area);
   const bool touched = any_quantity(measures, is_contact_value);
@@ -347,9 +351,7 @@ std::vector<Complaint> complaints_of(const PostConfig& config, const Renders& re
     else if (line.needs.shapes && !available.energy)
       complaints.push_back({key + ".field",
                             fmt::format("{} needs the shapes of the indenters", line.word),
-                            "a solution whose config this version can read, without contact of "
-                            "deformable surfaces",
-                            ""});
+                            "a solution whose config this version can read", ""});
   };
   for (const auto& [name, map] : config.maps) needs_contact("maps." + name, map.field);
   for (const auto& [name, keyed] : renders) needs_contact(keyed.first, keyed.second.field);
@@ -565,7 +567,10 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const std::vector<std::string> missing = indenters_missing(header, indenters);
 
   // Columns that this solution cannot have are errors, before any work.
-  Available available{!header.contact_nodes.empty(), missing.empty(), {}};
+  Available available;
+  available.contact = !header.contact_nodes.empty();
+  available.indenter = !indenters.empty();
+  available.energy = missing.empty() && knows_work(header);
   if (solution.reader.n_steps() > 0)
     for (const auto& [name, value] : solution.reader.step(0).scalars)
       available.histories.push_back(name);

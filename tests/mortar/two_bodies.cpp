@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "mortar/bodies.hpp"
+#include "scene/run/post_files.hpp"
 #include "support/near.hpp"
 
 using namespace langer;
@@ -170,7 +172,18 @@ TEST_CASE("a stiff pad with friction is a rigid plane, and its work is stored or
   VecX u = VecX::Zero(3 * pad.mesh.n_nodes());
   VecX reaction = u;
   std::vector<Vec3> r(pad.mesh.node_sets.at("skin_top").size(), Vec3::Zero());
+  std::optional<EnergyPath> path;
   const auto each = [&](const Run& run, const StepRecord& step) {
+    const std::vector<SurfaceContact>& surfaces = run.increment.surfaces();
+    if (!path) {
+      path.emplace(pad.mesh, std::vector<RigidContact>{}, std::vector<double>{0.5},
+                   std::vector<TurnedSet>{}, surfaces);
+      StepRecord rest;
+      rest.u.assign(pad.mesh.X.size(), Vec3::Zero());
+      rest.reaction = rest.u;
+      path->add(energy_state(rest, {}, {}, surfaces));
+    }
+    path->add(energy_state(step, {}, {}, surfaces));
     const VecX u_next = flat(step.u);
     const VecX reaction_next = flat(step.reaction);
     for (int node : pad.mesh.node_sets.at("pad_top"))
@@ -201,6 +214,14 @@ TEST_CASE("a stiff pad with friction is a rigid plane, and its work is stored or
   CHECK(std::abs(of_pad.scalars.at("force_pad_x")) == near(std::abs(of_plane.force_ind[0]), 1e-3));
   CHECK(dissipated > 0.01 * work);
   CHECK(work == near(of_pad.scalars.at("energy") + dissipated, 1e-3));
+  // the columns of langer-post; they integrate by parabolas
+  const PathSums sums = path->sums().back();
+  CHECK(sums.work == near(work, 1e-3));
+  CHECK(sums.dissipated == near(dissipated, 1e-3));
+  CHECK(std::abs(sums.balance) < 1e-3);
+  const std::vector<double>& slip = path->slip(0);
+  CHECK(*std::ranges::max_element(slip) > 0.05);
+  CHECK(*std::ranges::max_element(slip) < 0.25);
 }
 
 TEST_CASE("a run of two bodies that was killed goes on with the same digits") {

@@ -277,9 +277,13 @@ Measures look_up(const std::vector<ColumnChoice>& choices, const std::string& ke
                  "a quantity that needs no indenter", "");
       if (line.needs.shapes && !available.energy)
         complain("quantity", fmt::format("{} needs the shapes of the indenters", line.word),
-                 "a solution whose config this version can read, without contact of deformable "
-                 "surfaces",
+                 "a solution whose config this version can read, and deformable surfaces that do "
+                 "not move with inertia",
                  "energy, kinetic_energy and energy_balance know these");
+      if (line.needs.indenter && available.contact && available.energy && !available.indenter)
+        complain("quantity",
+                 fmt::format("{} of a solution whose surfaces are all deformable", line.word),
+                 "a quantity that needs no indenter", "work, dissipated and balance are known");
       // Without contact the complaint above is enough.
       if (line.needs.history && (available.contact || !line.needs.contact) &&
           !contains(available.histories, line.needs.history))

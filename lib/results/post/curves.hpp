@@ -86,9 +86,10 @@ struct Measure {
 
 // What a solution offers, apart from the mesh.
 struct Available {
-  bool contact = false;
-  bool energy = true;                  // the shapes of the indenters are known
+  bool contact = false;                // an indenter, or surfaces that touch
+  bool energy = true;                  // all that touches is known, so that its work is
   std::vector<std::string> histories;  // of the solver
+  bool indenter = true;                // in a solution with contact
 };
 
 // Columns that were found, and the faults of the others.

@@ -59,12 +59,67 @@ double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const
 }
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
-                       std::vector<double> kinks, std::vector<TurnedSet> turned)
+                       std::vector<double> kinks, std::vector<TurnedSet> turned,
+                       std::vector<SurfaceContact> surfaces)
     : mesh_(mesh),
       contacts_(std::move(contacts)),
       kinks_(std::move(kinks)),
-      turned_(std::move(turned)) {
+      turned_(std::move(turned)),
+      surfaces_(std::move(surfaces)) {
   for (const RigidContact& contact : contacts_) slips_.emplace_back(contact.nodes.size(), 0.0);
+  for (const SurfaceContact& surface : surfaces_) slips_.emplace_back(surface.nodes.size(), 0.0);
+}
+
+namespace {
+
+// The positions of all nodes (3 n).
+VecX positions(const Mesh& mesh, const std::vector<Vec3>& u) {
+  VecX x(3 * static_cast<Eigen::Index>(u.size()));
+  for (std::size_t i = 0; i < u.size(); ++i)
+    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.X[i] + u[i];
+  return x;
+}
+
+// Adds the forces of reactions on both sides of a surface.
+void add_nodal(const std::vector<MortarNode>& nodes, const VecX& x, const std::vector<Vec3>& r,
+               std::vector<Vec3>& to) {
+  VecX f = VecX::Zero(x.size());
+  add_mortar_forces(nodes, x, r, f);
+  for (std::size_t i = 0; i < to.size(); ++i)
+    to[i] += f.segment<3>(3 * static_cast<Eigen::Index>(i));
+}
+
+// The slip of a mortar node in a movement of all nodes.
+Vec3 slip_of(const MortarNode& node, const VecX& moved) {
+  const Vec3 v = node.average(moved);
+  return v - v.dot(node.normal) * node.normal;
+}
+
+}  // namespace
+
+// Reactions at both ends of the interval act on the mean slip in it, as those of indenters do.
+void EnergyPath::add_surfaces(const State& now, Interval& step, Ends& from_contact) {
+  const VecX x0 = positions(mesh_, last_.u);
+  const VecX x = positions(mesh_, now.u);
+  const VecX moved = x - x0;
+  std::vector<std::vector<MortarNode>> nodes;
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const std::size_t k = contacts_.size() + s;
+    nodes.push_back(mortar_nodes(surfaces_[s], x));
+    add_nodal(last_nodes_[s], x0, last_.r[k], from_contact.begin);
+    add_nodal(nodes[s], x, now.r[k], from_contact.end);
+    for (const MortarNode& node : last_nodes_[s]) {
+      const Vec3& r = last_.r[k][static_cast<std::size_t>(node.candidate)];
+      step.dissipated -= 0.5 * r.dot(slip_of(node, moved));
+    }
+    for (const MortarNode& node : nodes[s]) {
+      const auto i = static_cast<std::size_t>(node.candidate);
+      step.dissipated -= 0.5 * now.r[k][i].dot(slip_of(node, moved));
+      const bool touched = !last_.r[k][i].isZero(0) && !now.r[k][i].isZero(0);
+      if (touched) slips_[k][i] += slip_of(node, moved).norm();
+    }
+  }
+  last_nodes_ = std::move(nodes);
 }
 
 // Adds the work and the dissipation of contact k in the increment to `step`, and its nodal forces
@@ -163,6 +218,8 @@ EnergyPath::Ends EnergyPath::imposed(const State& now) const {
 void EnergyPath::add(State now) {
   stored_.push_back(now.stored);
   if (stored_.size() == 1) {
+    const VecX x = surfaces_.empty() ? VecX() : positions(mesh_, now.u);
+    for (const SurfaceContact& surface : surfaces_) last_nodes_.push_back(mortar_nodes(surface, x));
     last_ = std::move(now);
     return;
   }
@@ -171,6 +228,7 @@ void EnergyPath::add(State now) {
   Ends from_contact{none, none};
   std::vector<Vec3> rates;
   for (std::size_t k = 0; k < contacts_.size(); ++k) add_contact(k, now, step, from_contact, rates);
+  if (!surfaces_.empty()) add_surfaces(now, step, from_contact);
   // The rest of the reactions belongs to supports, which do not move, and to imposed displacements.
   const Ends du = imposed(now);
   for (std::size_t i = 0; i < now.u.size(); ++i) {

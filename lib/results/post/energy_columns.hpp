@@ -6,7 +6,8 @@
 //               of the path, because trapezoids have an error of the step squared.
 //   dissipated  sum over steps and contact nodes of -r_t . x_t [N mm]: r_t the mean tangential
 //               force of both ends of the step, x_t the slip in it. For an indenter that turns, the
-//               slip is seen from half of its angle and is as long as the arc.
+//               slip is seen from half of its angle and is as long as the arc. Of deformable
+//               surfaces the slip is that of the mortar nodes (mortar/surface_contact.hpp).
 //   balance     (work - stored - dissipated) over the largest work so far: the error of the
 //               increments [-]
 //   path        distance that the first indenter has travelled [mm]
@@ -25,6 +26,7 @@
 #include "mechanics/assembly/dofs.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/mesh/mesh.hpp"
+#include "mechanics/mortar/surface_contact.hpp"
 
 namespace langer {
 
@@ -43,24 +45,26 @@ double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const
 // the parabola uses both neighbours, so they are computed at the end.
 class EnergyPath {
  public:
-  // kinks: places on the path at which an imposed displacement or a load changes its rate
+  // kinks: places on the path at which an imposed displacement or a load changes its rate;
+  // surfaces: deformable ones that touch
   EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts, std::vector<double> kinks = {},
-             std::vector<TurnedSet> turned = {});
+             std::vector<TurnedSet> turned = {}, std::vector<SurfaceContact> surfaces = {});
 
   // What the sums need of each state of the path.
   struct State {
     double t = 0;
-    std::vector<Vec3> u, reaction;     // (n) [mm], [N]
-    std::vector<std::vector<Vec3>> r;  // per contact and candidate: reaction on the body [N]
-    double stored = 0;                 // [N mm]
-    VecX loads = {};                   // (3 n) forces on the surface [N]; empty without loads
+    std::vector<Vec3> u, reaction;  // (n) [mm], [N]
+    // per contact, then per surface, and candidate: reaction on the body [N]
+    std::vector<std::vector<Vec3>> r;
+    double stored = 0;  // [N mm]
+    VecX loads = {};    // (3 n) forces on the surface [N]; empty without loads
     // Forces of bonds on the body, like r; empty for a contact without adhesion.
     std::vector<std::vector<Vec3>> bonds = {};
     double jumps = 0;  // work done since rest in increments that hold a jump
   };
   void add(State state);               // in the order of the path, from the unloaded one
   std::vector<PathSums> sums() const;  // one for each state added
-  // The slip of the candidates of a contact along its indenter up to the last state added [mm].
+  // The slip of the candidates of a contact along what they touch, up to the last state added [mm].
   // Only increments with contact at both ends count.
   const std::vector<double>& slip(std::size_t contact) const { return slips_[contact]; }
 
@@ -82,14 +86,18 @@ class EnergyPath {
   // The part of one contact in the interval that ends with `now`.
   void add_contact(std::size_t k, const State& now, Interval& step, Ends& from_contact,
                    std::vector<Vec3>& rates);
+  // The same of a pair of surfaces; their forces do no work but that of friction.
+  void add_surfaces(const State& now, Interval& step, Ends& from_contact);
   // The movement in the interval, extrapolated from the rates at its two ends [mm].
   Ends imposed(const State& now) const;
   const Mesh& mesh_;
   std::vector<RigidContact> contacts_;
   std::vector<double> kinks_;
   std::vector<TurnedSet> turned_;
+  std::vector<SurfaceContact> surfaces_;
   State last_;
-  bool jumped_ = false;  // in the last interval
+  std::vector<std::vector<MortarNode>> last_nodes_;  // of the surfaces in it
+  bool jumped_ = false;                              // in the last interval
   std::vector<Interval> intervals_;
   std::vector<double> stored_;
   std::vector<std::vector<double>> slips_;

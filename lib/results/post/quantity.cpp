@@ -109,7 +109,7 @@ constexpr QuantityLine lines[]{
      "of the bonds on an indenter towards the body, along the normal of the contact; the "
      "greatest of all indenters; never negative",
      [](const StepState& s) { return s.sums.pull_off; },
-     {.contact = true, .shapes = true, .history = "adhesion_stored"}},
+     {.contact = true, .indenter = true, .shapes = true, .history = "adhesion_stored"}},
     {"work", "N mm", "work of the indenter and of imposed displacements",
      "done on the body since rest; positive where indenter and imposed displacements act against"
      " its resistance",
@@ -123,11 +123,13 @@ constexpr QuantityLine lines[]{
     {"hysteresis", "N mm", "work of a cycle",
      "done by indenter and imposed displacements since the first indenter last advanced after a "
      "return; at the end of a cycle its energy loss",
-     [](const StepState& s) { return s.sums.hysteresis; }, {.contact = true, .shapes = true}},
+     [](const StepState& s) { return s.sums.hysteresis; },
+     {.contact = true, .indenter = true, .shapes = true}},
     {"relaxation", "-", "force over its greatest so far",
      "magnitude of the force on the first indenter over the greatest so far: 1 while it grows, "
      "below 1 in a hold",
-     [](const StepState& s) { return s.sums.relaxation; }, {.contact = true, .shapes = true}},
+     [](const StepState& s) { return s.sums.relaxation; },
+     {.contact = true, .indenter = true, .shapes = true}},
     {"u_ind", "mm", "indenter travel",
      "length of the displacement of the indenter from its start; never negative",
      [](const StepState& s) { return s.u_ind.norm(); }, {.contact = true}},
@@ -140,7 +142,8 @@ constexpr QuantityLine lines[]{
      [](const StepState& s) { return s.u_ind[2]; }, {.contact = true}},
     {"path", "mm", "path of the indenter",
      "distance that the indenter has travelled, back and forth counted twice; never negative",
-     [](const StepState& s) { return s.sums.path; }, {.contact = true, .shapes = true}},
+     [](const StepState& s) { return s.sums.path; },
+     {.contact = true, .indenter = true, .shapes = true}},
     {"force", "N", "force resisting the indenter",
      "positive where the body resists the travel; at rest, where there is no direction, its "
      "magnitude",
@@ -229,7 +232,7 @@ constexpr QuantityLine lines[]{
      "negative",
      [](const ContactNode& c) { return c.friction; }, {.contact = true}},
     {"slip", "mm", "slip",
-     "distance of the node along the indenter in increments with contact at both ends, back and "
+     "distance of the node along what it touches in increments with contact at both ends, back and "
      "forth counted twice; never negative",
      [](const ContactNode& c) { return c.slip; }, {.contact = true, .shapes = true}},
     {"contact_status", "-", "status of contact", "-1 not a candidate, 0 open, 1 stick, 2 slip",

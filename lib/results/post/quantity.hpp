@@ -56,7 +56,8 @@ using OfBody = double (*)(const Extremes& all);
 
 // What a solution must have, so that a quantity can be computed.
 struct Needs {
-  bool contact = false;           // an indenter
+  bool contact = false;           // an indenter, or surfaces that touch
+  bool indenter = false;          // an indenter alone
   bool shapes = false;            // the shapes of all indenters
   bool fibres = false;            // a material with fibres
   const char* history = nullptr;  // a history that the solver wrote

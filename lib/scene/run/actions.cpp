@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "scene/model/scene_loads.hpp"
-#include "scene/model/solve_config_io.hpp"
 #include "scene/run/post_files.hpp"
+#include "scene/run/recorded_config.hpp"
 
 namespace langer {
 
@@ -107,24 +107,19 @@ class Actions {
 }  // namespace
 
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u) {
-  try {
-    const auto solve =
-        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
-            .config;
-    Actions actions(header.mesh, u, solve.path.seconds);
-    for (const SupportConfig& support : solve.supports)
-      for (Axis axis : support.hold) actions.hold(support.on, static_cast<int>(axis));
-    for (const LoadConfig& load : solve.loads) {
-      for (int axis = 0; axis < 3; ++axis)
-        if (const auto to = load.imposed(axis))
-          actions.move(load.on, axis, history_of(*to, solve.path.seconds));
-      if (load.rotation) actions.turn(load);
-      actions.load(load);
-    }
-    return actions.all;
-  } catch (const Failure&) {
-    return {};  // written by another version of solve
+  const auto solve = recorded_config(header);
+  if (!solve) return {};
+  Actions actions(header.mesh, u, solve->path.seconds);
+  for (const SupportConfig& support : solve->supports)
+    for (Axis axis : support.hold) actions.hold(support.on, static_cast<int>(axis));
+  for (const LoadConfig& load : solve->loads) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto to = load.imposed(axis))
+        actions.move(load.on, axis, history_of(*to, solve->path.seconds));
+    if (load.rotation) actions.turn(load);
+    actions.load(load);
   }
+  return actions.all;
 }
 
 }  // namespace langer

@@ -9,10 +9,12 @@
 
 #include "core/tensor/stress.hpp"
 #include "mechanics/mesh/bounding_box.hpp"
+#include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/section.hpp"
 #include "scene/model/scene_loads.hpp"
 #include "scene/model/solve_config.hpp"
 #include "scene/model/solve_config_io.hpp"
+#include "scene/run/recorded_config.hpp"
 #include "scene/run/recorded_contact.hpp"
 #include "scene/run/step_record.hpp"
 
@@ -173,16 +175,14 @@ std::vector<double> picture_values(const Body& body, const StepState& state, Qua
 // The indenters of a solution, from the config that it carries. Surfaces of scanned indenters are
 // taken from the solution, so that their files need not be there any more.
 std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
+  if (header.contact_nodes.empty()) return {};
+  const auto solve = recorded_config(header);
+  if (!solve) return {};
   std::vector<RigidContact> indenters;
-  if (header.contact_nodes.empty()) return indenters;
   try {
-    const auto solve =
-        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
-            .config;
-    for (const auto& [name, contact] : solve.contacts) {
-      if (contact.deformable()) continue;
+    for (const auto& [name, contact] : solve->contacts) {
       if (!header.contact_nodes.count(name)) return {};
-      RigidContact indenter = indenter_of(name, contact, solve.path);
+      RigidContact indenter = indenter_of(name, contact, solve->path);
       indenter.nodes = header.contact_nodes.at(name);
       if (is_from_file(indenter.shape)) {
         const auto surface = header.indenter_surfaces.find(name);
@@ -192,9 +192,28 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
       indenters.push_back(std::move(indenter));
     }
   } catch (const Failure&) {
-    return {};  // written by another version of solve
+    return {};  // numbers that this version refuses
   }
   return indenters;
+}
+
+std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header) {
+  const auto solve = recorded_config(header);
+  if (!solve) return {};
+  std::vector<SurfaceContact> surfaces;
+  for (const auto& [name, contact] : solve->touching) {
+    const auto nodes = header.contact_nodes.find(name);
+    if (nodes == header.contact_nodes.end() || header.mesh.type != CellType::hex8) return {};
+    const std::vector<Facet> own = surface_of(header.mesh, contact.on);
+    if (contact.on == *contact.against) {
+      surfaces.push_back(self_contact(name, contact.friction, header.mesh, own));
+    } else {
+      const std::vector<Facet> other = surface_of(header.mesh, *contact.against);
+      surfaces.push_back(surface_contact(name, contact.friction, header.mesh, own, other));
+    }
+    if (surfaces.back().nodes != nodes->second) return {};
+  }
+  return surfaces;
 }
 
 int steps_until(const SolutionReader& solution, double t) {
@@ -221,32 +240,36 @@ void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& 
 // Work is integrated over time. It needs the times at which a load changes its rate, so that no
 // interval of the quadrature contains one.
 EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
-                       const SolutionHeader& header) {
+                       const SolutionHeader& header, std::vector<SurfaceContact> surfaces) {
+  const auto solve = recorded_config(header);
+  if (!solve) return {mesh, std::move(indenters)};
   std::vector<double> kinks;
-  try {
-    const auto solve =
-        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
-            .config;
-    for (const LoadConfig& load : solve.loads)
-      for (const HistoryConfig& history : load.histories())
-        for (const HistoryPointConfig& point : history.points)
-          kinks.push_back(place(point, solve.path.seconds));
-    return {mesh, std::move(indenters), std::move(kinks), turned_sets(solve, header.mesh)};
-  } catch (const Failure&) {
-    return {mesh, std::move(indenters)};  // written by another version of solve
-  }
+  for (const LoadConfig& load : solve->loads)
+    for (const HistoryConfig& history : load.histories())
+      for (const HistoryPointConfig& point : history.points)
+        kinks.push_back(place(point, solve->path.seconds));
+  return {mesh, std::move(indenters), std::move(kinks), turned_sets(*solve, header.mesh),
+          std::move(surfaces)};
 }
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header,
                                            const std::vector<RigidContact>& indenters) {
+  const std::vector<SurfaceContact> surfaces = touching_surfaces(header);
   std::vector<std::string> names;
   for (const auto& contact : header.contact_nodes) {
     const std::string& name = contact.first;
-    if (std::none_of(indenters.begin(), indenters.end(),
-                     [&](const RigidContact& c) { return c.name == name; }))
-      names.push_back(name);
+    const bool is_rigid =
+        std::ranges::find(indenters, name, &RigidContact::name) != indenters.end();
+    const bool is_surface =
+        std::ranges::find(surfaces, name, &SurfaceContact::name) != surfaces.end();
+    if (!is_rigid && !is_surface) names.push_back(name);
   }
   return names;
+}
+
+bool knows_work(const SolutionHeader& header) {
+  const auto solve = recorded_config(header);
+  return !solve || !solve->in_motion() || solve->touching.empty();
 }
 
 Shown shown_of(const Mesh& mesh) {
@@ -267,17 +290,16 @@ namespace {
 
 // Tractions and pressures of a solution, from the config that it carries; none if it has none.
 std::vector<SurfaceLoad> surface_loads_of(const SolutionHeader& header) {
+  const auto solve = recorded_config(header);
+  if (!solve) return {};
   try {
-    const auto solve =
-        read_config<SolveConfig>(parse_yaml(header.identity.config, "the solution's config"))
-            .config;
     std::vector<Error> errors;
     std::vector<SurfaceLoad> loads = surface_loads(
-        solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
+        *solve, header.mesh, [](const std::string&) { return Place{}; }, errors);
     if (!errors.empty()) return {};
     return loads;
   } catch (const Failure&) {
-    return {};  // written by another version of solve
+    return {};  // numbers that this version refuses
   }
 }
 
@@ -309,7 +331,7 @@ std::function<double(double)> applied_pressure(const SolutionHeader& header) {
 // What the balance of energy needs of a step: displacements, forces at supports, at contacts and of
 // loads, and the energies that the solver recorded.
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
-                               const Loads& loads) {
+                               const Loads& loads, const std::vector<SurfaceContact>& surfaces) {
   EnergyPath::State state{record.t, record.u, record.reaction, {}, 0};
   for (const RigidContact& indenter : indenters) {
     const auto found = record.contacts.find(indenter.name);  // the unloaded state has none
@@ -318,6 +340,14 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
                           : found->second.r);
     state.bonds.push_back(found == record.contacts.end() ? std::vector<Vec3>{}
                                                          : found->second.adhesive);
+  }
+  for (const SurfaceContact& surface : surfaces) {
+    const auto found = record.contacts.find(surface.name);
+    if (found == record.contacts.end()) {
+      state.r.emplace_back(surface.nodes.size(), Vec3::Zero());
+    } else {
+      state.r.push_back(found->second.r);
+    }
   }
   if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end())
     state.jumps = jumps->second;

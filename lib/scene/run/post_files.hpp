@@ -58,11 +58,17 @@ int steps_until(const SolutionReader& solution, double t);
 std::vector<RigidContact> indenters_of(const SolutionHeader& header);
 // Indenters under force control then move as they were found to.
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution);
+// Deformable surfaces that touch, from that config; none where they are not known.
+std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header);
+// names of contacts that are neither among the indenters nor such surfaces
 std::vector<std::string> indenters_missing(const SolutionHeader& header,
-                                           const std::vector<RigidContact>& indenters);  // names
+                                           const std::vector<RigidContact>& indenters);
+// Whether the work of its contacts follows from its steps: in motion that of deformable surfaces is
+// in the energy balance of the solver only.
+bool knows_work(const SolutionHeader& header);
 // where its loads have kinks, and what they turn
 EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
-                       const SolutionHeader& header);
+                       const SolutionHeader& header, std::vector<SurfaceContact> surfaces = {});
 // Supports, imposed displacements and forces on the surface as that config tells, on some nodes of
 // each set; u (n) [mm] moves them.
 std::vector<Action> actions_of(const SolutionHeader& header, const std::vector<Vec3>& u);
@@ -74,8 +80,10 @@ Loads loads_of(const SolutionHeader& header);
 // The pressure at t [MPa], positive into the body, of the load with the largest one; 0 without such
 // a load.
 std::function<double(double t)> applied_pressure(const SolutionHeader& header);
-// The record as a state of an energy path; reactions in the order of the indenters.
+// The record as a state of an energy path; reactions in the order of the indenters, then of the
+// surfaces.
 EnergyPath::State energy_state(const StepRecord& record, const std::vector<RigidContact>& indenters,
-                               const Loads& loads);
+                               const Loads& loads,
+                               const std::vector<SurfaceContact>& surfaces = {});
 
 }  // namespace langer

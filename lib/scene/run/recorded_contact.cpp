@@ -1,12 +1,13 @@
 #include "scene/run/recorded_contact.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace langer {
 
 ContactStates::ContactStates(const SolutionReader& solution,
                              const std::vector<RigidContact>& indenters)
-    : solution_(solution), indenters_(indenters) {
+    : solution_(solution), indenters_(indenters), touching_(touching_surfaces(solution.header())) {
   for (const auto& [name, nodes] : solution.header().contact_nodes)
     surfaces_.emplace(name, ContactSurface(solution.header().mesh, nodes));
 }
@@ -16,23 +17,25 @@ ContactStates::ContactStates(const SolutionReader& solution,
 void ContactStates::go_to(int row) const {
   const Mesh& mesh = solution_.header().mesh;
   if (!path_ || row < row_) {
-    path_.emplace(energy_path(mesh, indenters_, solution_.header()));
+    path_.emplace(energy_path(mesh, indenters_, solution_.header(), touching_));
     StepRecord rest;
     rest.u.assign(mesh.X.size(), Vec3::Zero());
     rest.reaction = rest.u;
-    path_->add(energy_state(rest, indenters_, {}));
+    path_->add(energy_state(rest, indenters_, {}, touching_));
     row_ = 0;
   }
-  for (; row_ < row; ++row_) path_->add(energy_state(solution_.step(row_), indenters_, {}));
+  for (; row_ < row; ++row_)
+    path_->add(energy_state(solution_.step(row_), indenters_, {}, touching_));
 }
 
 std::vector<double> ContactStates::slip(const std::string& contact, int row) const {
-  for (std::size_t k = 0; k < indenters_.size(); ++k)
-    if (indenters_[k].name == contact) {
-      go_to(row);
-      return path_->slip(k);
-    }
-  return {};
+  std::vector<std::string> names;
+  for (const RigidContact& indenter : indenters_) names.push_back(indenter.name);
+  for (const SurfaceContact& surface : touching_) names.push_back(surface.name);
+  const auto found = std::ranges::find(names, contact);
+  if (found == names.end()) return {};
+  go_to(row);
+  return path_->slip(static_cast<std::size_t>(found - names.begin()));
 }
 
 // The state of contact at each node of the mesh, over all indenters.

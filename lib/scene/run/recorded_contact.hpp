@@ -14,9 +14,9 @@ class ContactStates {
  public:
   ContactStates(const SolutionReader& solution, const std::vector<RigidContact>& indenters);
   const std::map<std::string, ContactSurface>& surfaces() const { return surfaces_; }
-  bool knows_slip() const { return !indenters_.empty(); }
+  bool knows_slip() const { return !indenters_.empty() || !touching_.empty(); }
   // of the candidates of a contact at a row of the table of states [mm]; empty where the indenter's
-  // shape is not known
+  // shape, or the surface that is touched, is not known
   std::vector<double> slip(const std::string& contact, int row) const;
   // at each node of the body; record: of that row
   std::vector<ContactNode> nodes(int row, const StepRecord& record, bool with_slip) const;
@@ -25,6 +25,7 @@ class ContactStates {
   void go_to(int row) const;
   const SolutionReader& solution_;
   const std::vector<RigidContact>& indenters_;
+  std::vector<SurfaceContact> touching_;  // deformable
   std::map<std::string, ContactSurface> surfaces_;
   mutable std::optional<EnergyPath> path_;
   mutable int row_ = 0;
