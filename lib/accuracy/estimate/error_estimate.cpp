@@ -187,7 +187,7 @@ double one_by_one(double touching, bool section) {
 // and errors fall with h alone. So they do where a force is passed on by a clamped face; below an
 // indenter such a face is far away.
 double order_of_force(const SolveConfig& config) {
-  if (config.contacts.empty() && is_clamped(config)) return 1;
+  if (config.contacts.empty() && config.touching.empty() && is_clamped(config)) return 1;
   int order = 2;
   for (const auto& [name, contact] : config.contacts)
     order = std::min(order, force_order(contact.rigid.value()));
@@ -415,7 +415,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   });
   PathErrors out;
   // no study stands for these scenes: their meshes show the order themselves
-  const bool observes = config.contacts.empty() || in_family(config);
+  const bool observes = config.contacts.empty() || !config.touching.empty() || in_family(config);
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config);
   const double beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));

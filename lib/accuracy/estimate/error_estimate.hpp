@@ -10,7 +10,8 @@
 //   cells       q - f of the solved mesh
 //   increments  (q(dt) - q(dt / r)) r^2 / (r^2 - 1), of second order, with r >= 2 so that
 //               dt / r <= 1/8; of increments below 0.1 the effect of doubling them; none where
-//               neither friction nor time makes the path matter
+//               neither friction nor time makes the path matter. Between deformable surfaces with
+//               friction of first order: r / (r - 1)
 //   scatter     root mean square of what the fit leaves, and at least a share that falls with the
 //               number n of nodes in contact, which come into contact one by one (one_by_one())
 //   solver      the last residual relative to the forces that it balances
@@ -19,8 +20,8 @@
 //   limit       q - cells - increments
 //   left out    effect of what a body leaves out that stands for a larger one, if the config asks
 //               for it (accuracy/estimate/truncation.hpp); not in total
-// Meshes without a study (MeshFamily, no indenter) have the smaller one of p and of the order that
-// they show. A greatest stress without an order grows without bound and gets no bar.
+// Meshes without a study (MeshFamily, no indenter, several bodies) have the smaller one of p and of
+// the order that they show. A greatest stress without an order grows without bound and gets no bar.
 //
 // Which meshes are solved for which scene, and the lower limits of the scatter with their
 // constants: docs/accuracy.md, "Estimates by refinement". Meshes need numbers of cells that follow

@@ -91,6 +91,24 @@ void add_longer_hex8(Refinements& refined, SolveConfig other, const std::array<d
   }
 }
 
+// The same bodies with 3/4 and half of the cells along each axis, which SolveConfig has made sure
+// of: one family, also of cells that face each other.
+void add_coarser_bodies(Refinements& refined, const SolveConfig& config) {
+  refined.own = true;
+  refined.length = {1};
+  for (int parts : fewer_parts) {
+    SolveConfig& other = refined.hex8.emplace_back(config);
+    refined.length.push_back(4.0 / parts);
+    for (auto& [name, body] : other.bodies) {
+      Block& block = std::get<Block>(body.mesh.geometry);
+      std::array<int, 3> n = block.numbers();
+      for (int& along : n)
+        if (along > 1) along = along * parts / 4;
+      block.instead = n;
+    }
+  }
+}
+
 // The same scene on cells longer by about a factor; returns their length in those of before.
 double lengthen(SolveConfig& config, double factor) {
   Geometry& geometry = config.mesh->geometry;
@@ -163,12 +181,45 @@ std::vector<LongerScene> longer_in_space_and_time(const SolveConfig& config, con
   return out;
 }
 
+namespace {
+
+// The same on other increments, where the path matters. On cells so long that nodes stick by chance
+// their increments do, too.
+void add_other_increments(Refinements& refined, const SolveConfig& config,
+                          const SolveConfig& coarsest) {
+  bool rough = has_friction(config);
+  bool first_order = false;  // a node that touches slips from the beginning of its increment
+  for (const auto& [name, contact] : config.touching)
+    if (contact.friction > 0) rough = first_order = true;
+  if (!rough && !config.path.seconds) return;
+  const double increment = config.path.largest_increment();
+  const bool shorter = increment >= 0.1;
+  double another = 2 * increment;
+  if (shorter) another = std::min(0.5 * increment, few);
+  const double ratio = increment / another;
+  refined.per_change = 1;
+  if (shorter) refined.per_change = -ratio * ratio / (ratio * ratio - 1);
+  if (shorter && first_order) refined.per_change = -ratio / (ratio - 1);
+  refined.other_increments = coarsest;
+  if (refined.edge_unresolved) refined.other_increments = refined.hex8.front();
+  refined.other_increments.path.use_increment(another);
+  refined.other_increments.path.time_error /=
+      ratio * ratio * ratio;  // it grows with the third power of an increment
+}
+
+}  // namespace
+
 Refinements refinements(const SolveConfig& given, const Find& where) {
   SolveConfig config = given;
   if (auto* newton = std::get_if<NewtonOptions>(&config.solver))
     newton->relative = std::max(newton->relative, close_enough);
-  need_numbers_of_cells(config, where);
   Refinements refined;
+  if (!config.bodies.empty()) {
+    add_coarser_bodies(refined, config);
+    add_other_increments(refined, config, refined.hex8.back());
+    return refined;
+  }
+  need_numbers_of_cells(config, where);
   SolveConfig other = config;
   Geometry& geometry = other.mesh->geometry;
   const bool quadratic = reference(config.mesh->cells).second_order();
@@ -206,20 +257,7 @@ Refinements refinements(const SolveConfig& given, const Find& where) {
   const SolveConfig& coarsest = refined.hex8.empty() ? refined.hex27.back() : refined.hex8.back();
   for (Truncation truncation : config.truncation)
     refined.wider[truncation] = wider(coarsest, truncation);
-  if (!has_friction(config) && !config.path.seconds) return refined;
-  const double increment = config.path.largest_increment();
-  const bool shorter = increment >= 0.1;
-  double another = 2 * increment;
-  if (shorter) another = std::min(0.5 * increment, few);
-  const double ratio = increment / another;
-  refined.per_change = 1;
-  if (shorter) refined.per_change = -ratio * ratio / (ratio * ratio - 1);
-  // on cells so long that nodes stick by chance their increments do, too
-  refined.other_increments = coarsest;
-  if (refined.edge_unresolved) refined.other_increments = refined.hex8.front();
-  refined.other_increments.path.use_increment(another);
-  refined.other_increments.path.time_error /=
-      ratio * ratio * ratio;  // it grows with the third power of an increment
+  add_other_increments(refined, config, coarsest);
   return refined;
 }
 

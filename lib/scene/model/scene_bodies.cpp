@@ -77,7 +77,7 @@ void expand_bodies(SolveConfig& config, Tree& tree) {
     append_list(name, body.supports, from, "supports", config.supports, tree);
     append_list(name, body.loads, from, "loads", config.loads, tree);
   }
-  config.estimate = EstimateBy::none;
+  if (config.estimate != EstimateBy::refinement) config.estimate = EstimateBy::none;
   config.stability = StabilityCheck::off;
   config.symmetry = SymmetryChoice::none;
   config.homogeneous = Homogeneous::off;

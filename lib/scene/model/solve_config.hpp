@@ -479,7 +479,8 @@ struct SolveConfig {
       found.push_back({"mesh.export", "found in a solve", "langer-mesh: it is what exports", ""});
     if (accuracy && fidelity)
       found.push_back({"fidelity", "found together with accuracy", "one of the two", ""});
-    const bool numbers = mesh && has_numbers_of_cells(mesh->geometry);
+    const bool numbers = !bodies.empty() || (mesh && has_numbers_of_cells(mesh->geometry));
+    if (estimate == EstimateBy::refinement) complain_of_divisions(found);
     std::string other_mesh = "no mesh here";
     if (mesh) other_mesh = "a mesh whose cells follow from no numbers of this config";
     const char* laid_out =
@@ -583,13 +584,20 @@ struct SolveConfig {
                        "mortar contact of hex27 and tet15 is not there yet"});
     refuse(mesh && is_section(mesh->geometry), "mesh.geometry", "a body with all of its sides");
     refuse(mesh && !mesh->cuts.empty(), "mesh.cuts", "a mesh without cuts");
-    refuse(accuracy.has_value(), "accuracy", "a scene without it: errors are not estimated there");
-    refuse(fidelity.has_value(), "fidelity", "a scene without it: errors are not estimated there");
-    refuse(estimate && *estimate != EstimateBy::none, "estimate", "none");
+    refuse(accuracy.has_value(), "accuracy", "estimate: refinement, and shorter cells by hand");
+    refuse(fidelity.has_value(), "fidelity", "estimate: refinement, and shorter cells by hand");
+    const bool by_refinement = estimate == EstimateBy::refinement;
+    refuse(by_refinement && in_motion(), "estimate", "none in motion");
+    refuse(estimate && !by_refinement && *estimate != EstimateBy::none, "estimate",
+           "refinement or none");
     refuse(symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none, "symmetry",
            "none: model a half or a quarter and hold the planes by supports");
     refuse(reduce == Reduce::automatic, "reduce", "none");
-    refuse(!sensitivity.empty(), "sensitivity", "none: derivatives do not go through it yet");
+    refuse(!sensitivity.empty() && in_motion(), "sensitivity", "none in motion");
+    const bool rigid_as_well = std::ranges::any_of(
+        contacts, [](const auto& contact) { return !contact.second.deformable(); });
+    refuse(!sensitivity.empty() && rigid_as_well, "sensitivity",
+           "deformable surfaces alone, or indenters alone");
     refuse(uncertainty && *uncertainty != UncertaintyBy::none, "uncertainty", "none");
     refuse(!truncation.empty(), "truncation", "none");
     refuse(stability == StabilityCheck::each_step || stability == StabilityCheck::last, "stability",
@@ -602,6 +610,24 @@ struct SolveConfig {
       refuse(contact.adhesion.has_value(), "contacts." + name + ".adhesion", "none");
       refuse(contact.control.has_value(), "contacts." + name + ".control", "motion");
       refuse(contact.free.has_value(), "contacts." + name + ".free", "motion");
+    }
+  }
+  // Coarser meshes of several bodies have 3/4 and half of their cells along each axis.
+  void complain_of_divisions(std::vector<Complaint>& found) const {
+    for (const auto& [name, body] : bodies) {
+      const std::string key = "bodies." + name + ".mesh.geometry";
+      const auto* block = std::get_if<Block>(&body.mesh.geometry);
+      if (!block) {
+        found.push_back({key, "found together with estimate: refinement", "block", ""});
+        continue;
+      }
+      const auto divides = [](int n) {
+        return n == 1 || n % 4 == 0;
+      };
+      if (!std::ranges::all_of(block->divisions, divides))
+        found.push_back({key + ".block.divisions", "found together with estimate: refinement",
+                         "numbers that are 1 or multiples of 4",
+                         "its coarser meshes have 3/4 and half of the cells, in all bodies alike"});
     }
   }
   // Inertia together with what knows equilibria only.

@@ -23,7 +23,7 @@ double beside_holes(const SolveConfig& config) {
   std::optional<RoundHole> hole;
   for (const auto& [name, contact] : config.contacts)
     if (!hole) hole = hole_of(contact.rigid.value());
-  if (!hole) return 0;
+  if (!hole || !config.mesh) return 0;
   const double radius = hole->radius;
   const auto size = box(config.mesh->geometry).size;
   double top = 0;
@@ -41,6 +41,7 @@ double beside_holes(const SolveConfig& config) {
 // tell it (docs/loads.md).
 double under_holes(const SolveConfig& config) {
   double least = 0;
+  if (!config.mesh) return least;
   for (const auto& [name, contact] : config.contacts)
     if (const auto hole = hole_of(contact.rigid.value()))
       least = std::max(least, 0.12 * cell_length(config.mesh->geometry) / hole->radius);
@@ -51,6 +52,7 @@ double under_holes(const SolveConfig& config) {
 // what cells beside it miss of the dome is a share of their length in radii, of drawn scenes up to
 // 0.07; on eight cells over the radius three meshes did not tell it (docs/loads.md).
 double beside_rims(const SolveConfig& config, bool clamped) {
+  if (!config.mesh) return 0;  // several bodies
   double least = 0;
   for (const LoadConfig& load : config.loads) {
     const auto set = config.mesh->sets.find(load.on);

@@ -42,6 +42,11 @@ void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whol
     const auto [fewest, first] = forces.touching.try_emplace("force", n);
     fewest->second = std::min(fewest->second, n);
   }
+  for (const SurfaceContact& surface : scene.surfaces) {
+    const std::vector<Vec3>& r = whole.contacts.at(surface.name).r;
+    const auto n = std::ranges::count_if(r, [](const Vec3& one) { return !one.isZero(0); });
+    if (n > 0) forces.touching["force_" + surface.name] = static_cast<double>(n);
+  }
 }
 
 // The pull of the bonds of all indenters that adhere, the greatest of them, and how many nodes of
@@ -122,6 +127,8 @@ StepForces step_forces(const SolveConfig& config, const Scene& scene, const Mesh
   if (scene.contacts.size() > 1)
     for (const RigidContact& contact : scene.contacts)
       forces.of["force_" + contact.name] = force_of(whole, contact.name);
+  for (const SurfaceContact& surface : scene.surfaces)
+    forces.of["force_" + surface.name] = force_of(whole, surface.name);
   for (const RigidContact& contact : scene.contacts)
     if (contact.control)
       forces.of["travel_" + contact.name] = std::abs(whole.scalars.at("travel_" + contact.name));

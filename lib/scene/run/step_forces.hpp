@@ -1,6 +1,6 @@
 // The forces of a state by name, of which errors are told at every step:
 //   force             on the indenter, of several the length of their sum [N]
-//   force_<contact>   of several indenters: on each of them [N]
+//   force_<contact>   of several indenters: on each of them; of deformable surfaces: between them [N]
 //   travel_<contact>  of an indenter under force control [mm]
 //   reaction_<set>    of each set that is moved [N]
 //   torque_<name>     of each indenter that turns and each set that is turned [N mm]
