@@ -453,6 +453,42 @@ TEST_CASE("The derivatives of the runs are those of differences between runs") {
   CHECK(quotients.runs() == 4);
 }
 
+TEST_CASE("A viscous scene is differentiated by its run, one that adheres by differences of runs") {
+  write_force("force.csv", truth());
+  const auto loaded = read(std::string(force) +
+                           "}]\nlaw: {matrix: {yeoh: {a1: 0.02, a2: 0.02, a3: 0.02}}, volume: "
+                           "{quadratic: {d: 1.0e-2}}, viscous: [{tau: 0.5, gamma: 0.6}]}\n"
+                           "parameters: [{key: matrix.yeoh.a1, start: 0.02, lower: 0.005, upper: "
+                           "0.1}, {key: \"viscous[0].gamma\", start: 0.6, lower: 0, upper: 2}]\n");
+  const FitProblem problem = fit_problem(loaded.config);
+  VecX p(2);
+  p << 0.015, 0.5;
+  const auto slope = [&](bool by_quotients, int& runs) {
+    SceneTests scenes(loaded.config, loaded.where, problem, {}, std::make_shared<RunCache>(),
+                      {1, by_quotients});
+    MatX J;
+    REQUIRE(scenes.slope(p, J));
+    runs = scenes.runs();
+    return J;
+  };
+  std::string timed = solve_yaml;
+  timed.replace(timed.find("steps: 5"), 8, "steps: 5, seconds: 2");
+  write("solve.yaml", timed);
+  int runs = 0;
+  const MatX direct = slope(false, runs);
+  CHECK(runs == 1);
+  const MatX quotients = slope(true, runs);
+  CHECK(runs == 3);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    CHECK((direct - quotients).col(i).norm() < 1e-3 * direct.col(i).norm());
+  std::string sticky = timed;
+  sticky.replace(sticky.find("    motion:"), 11,
+                 "    adhesion: {work: 1.0e-3, stiffness: 0.1}\n    motion:");
+  write("solve.yaml", sticky);
+  slope(false, runs);
+  CHECK(runs == 3);
+}
+
 TEST_CASE("What a scene does not have, and files that do not fit it, are named where they stand") {
   write_force("force.csv", truth());
   const auto with = [](const std::string& data, const std::string& parameters = three) {

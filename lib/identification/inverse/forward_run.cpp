@@ -218,10 +218,20 @@ std::vector<std::string> ForwardRun::uncertain_numbers() const {
   return paths;
 }
 
-// Asks the scene itself, which refuses what it cannot be differentiated by: a viscous body, a shape
-// from a file, loads on the sides of a layer.
+bool ForwardRun::differentiates_itself(const Material& law) const {
+  for (const auto& [name, contact] : config_.contacts)
+    if (contact.adhesion) return false;
+  if (!config_.dynamics) return true;
+  for (const auto& [name, body] : config_.materials)
+    if (body.material && is_viscous(*body.material)) return false;
+  return !is_viscous(law);
+}
+
+// Asks the scene itself, which refuses what it cannot be differentiated by: a shape from a file,
+// loads on the sides of a layer.
 bool ForwardRun::differentiates(const std::string& path, const Material& law) const {
   if (!number(path)) return true;  // it has no part in this scene
+  if (!differentiates_itself(law)) return false;
   SolveConfig config = config_;
   config.material = law;
   config.sensitivity = {path};

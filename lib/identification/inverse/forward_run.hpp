@@ -49,6 +49,9 @@ class ForwardRun {
   std::optional<double> number(const std::string& path) const;
   // Why a number of the config cannot be found; empty: it can.
   std::string reason_fixed(const std::string& path) const;
+  // Whether runs with a law differentiate themselves wherever they have an end. Those with bonds
+  // that may let go in a jump do not, nor a viscous body in motion.
+  bool differentiates_itself(const Material& law) const;
   // Whether a run differentiates itself with respect to a number of its config that is no friction.
   bool differentiates(const std::string& path, const Material& law) const;
   // What a fit may have to find beside the law: friction, radii and thicknesses of the scene.

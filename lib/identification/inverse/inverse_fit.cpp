@@ -53,9 +53,9 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
   if (cache_->read_back() > 0)
     voice_.say("continues with {} cached runs of an earlier fit", cache_->read_back());
   complete_scene_numbers(config, where, problem);
-  scenes_ = std::make_shared<SceneTests>(
-      config, where, problem, files, cache_,
-      SceneFitOptions{config.jobs, quotients || is_viscous(config.law), throttled(voice, "")});
+  scenes_ =
+      std::make_shared<SceneTests>(config, where, problem, files, cache_,
+                                   SceneFitOptions{config.jobs, quotients, throttled(voice, "")});
   if (config.draft) draft_ = scenes_->on_longer_cells(draft_factor);
   problem_.further = scenes_;
 }

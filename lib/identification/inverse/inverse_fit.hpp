@@ -16,7 +16,7 @@ namespace langer {
 
 class InverseFit {
  public:
-  // quotients: derivatives by differences of whole runs, as viscous laws have them anyway.
+  // quotients: derivatives by differences of whole runs, as scenes with adhesion have them anyway.
   // problem: gets the scenes as further tests. journal: keeps the runs (inverse/run_cache.hpp).
   // files: of items without one.
   InverseFit(const Voice& voice, const FitConfig& config, const SceneTests::Where& where,

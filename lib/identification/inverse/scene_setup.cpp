@@ -100,6 +100,8 @@ SceneTests::SceneTests(const FitConfig& config, const Where& where, const FitPro
   run_of_.assign(config_.data.size(), 0);
   for (std::size_t i = 0; i < config_.data.size(); ++i)
     if (config_.data[i].is_scene()) add_run(i, longer, known);
+  for (const Scene& scene : scenes_)
+    if (!scene.run->differentiates_itself(law_.law)) options_.quotients = true;
   add_tests();
   add_numbers();
 }
