@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "mechanics/contact/rigid.hpp"
 #include "support/near.hpp"
@@ -153,4 +155,84 @@ TEST_CASE("bonds come back with healing only, and nothing holds what never touch
   CHECK(adhesive(law, shape_at(flat, near), near, lost, 0).beta == 1);
   CHECK(adhesive(law, shape_at(flat, near), near, lost, 1).beta < 0.1);  // slowly
   CHECK(adhesive(law, shape_at(flat, far), far, {}, 0).force == Vec3(0, 0, 0));
+}
+
+namespace {
+
+// A bond with all of its numbers.
+struct Case {
+  Adhesion law;
+  double radius = 2;  // of a ball below the node
+  Vec3 v;
+  Bond bond;
+  double viscous = 0;
+};
+
+ShapePoint ball_at(double radius, const Vec3& v) {
+  return shape_at(Indenter(Sphere{radius, {0, -2, 0}}), v);
+}
+
+Adhesive of(const Case& c) {
+  return adhesive(c.law, ball_at(c.radius, c.v), c.v, c.bond, c.viscous);
+}
+
+// The case moved by a step along a change, of the radius as well.
+Case moved(Case c, const BondChange& change, double radius, double step) {
+  c.law.work += step * change.law.work;
+  c.law.stiffness += step * change.law.stiffness;
+  c.law.tangential += step * change.law.tangential;
+  c.radius += step * radius;
+  c.v += step * change.v;
+  c.bond.beta += step * change.beta;
+  c.bond.at += step * change.at;
+  c.viscous += step * change.viscous;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a bond changes with each number of its law, its past and its indenter as differences say") {
+  const Case loosening{{0.02, 50, 30}, 2, {0.05, 0.09, 0.02}, {0.9, {0.01, 0, -0.02}, true}, 0.01};
+  Case at_once = loosening;
+  at_once.viscous = 0;
+  Case holding = loosening;
+  holding.law.work = 5;
+  Case healing = holding;
+  healing.law.healing = true;
+  healing.bond.beta = 0.4;
+  healing.viscous = 20;
+  Case pressed = loosening;
+  pressed.v[1] = -0.01;  // inside: it opens by sliding alone
+  std::vector<std::pair<BondChange, double>> changes(9);
+  changes[0].first.beta = 1;
+  changes[1].first.at = {0.3, -1, 0.5};
+  changes[2].first.v = {1, 0.4, -0.7};
+  changes[3].first.law = {1, 0, 0};
+  changes[4].first.law = {0, 1, 0};
+  changes[5].first.law = {0, 0, 1};
+  changes[6].first.viscous = 1;
+  changes[7].second = 1;
+  changes[8] = {{0.2, {0.1, 0.2, 0.3}, {-0.3, 0.2, 1}, {0.1, 20, -10}, 0.05}, 0.7};
+  for (const Case& c : {loosening, at_once, holding, healing, pressed})
+    for (auto& [change, radius] : changes) {
+      CAPTURE(c.law.work);
+      CAPTURE(c.v[1]);
+      CAPTURE(&change - &changes[0].first);
+      const double h = 1e-6;
+      const ShapePoint more = ball_at(c.radius + h * radius, c.v);
+      const ShapePoint less = ball_at(c.radius - h * radius, c.v);
+      const Mat3 along = (ball_at(c.radius, c.v + h * change.v).curvature -
+                          ball_at(c.radius, c.v - h * change.v).curvature) /
+                         (2 * h);
+      change.shape = {(more.gap - less.gap) / (2 * h), (more.normal - less.normal) / (2 * h),
+                      (more.curvature - less.curvature) / (2 * h) + along};
+      const AdhesiveChange told =
+          adhesive_change(c.law, ball_at(c.radius, c.v), c.v, c.bond, c.viscous, change);
+      const Adhesive high = of(moved(c, change, radius, h));
+      const Adhesive low = of(moved(c, change, radius, -h));
+      const Vec3 force = (high.force - low.force) / (2 * h);
+      CHECK((told.force - force).norm() <= 1e-6 * (force.norm() + of(c).force.norm()));
+      CHECK(told.beta == near((high.beta - low.beta) / (2 * h), 1e-6, 1e-7));
+    }
 }

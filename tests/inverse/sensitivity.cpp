@@ -72,7 +72,8 @@ bool change_geometry(SolveConfig& config, const std::string& key, double by) {
 // the number of a config; its own material or that of a body
 void change(SolveConfig& config, const std::string& key, double by) {
   if (change_geometry(config, key, by)) return;
-  if (key.starts_with("loads[") || key.ends_with("control.force")) {
+  if (key.starts_with("loads[") || key.ends_with("control.force") ||
+      key.find(".adhesion.") != std::string::npos) {
     config = with_config_number(config, key, *config_number(config, key) + by);
     return;
   }
@@ -170,23 +171,31 @@ void check(const std::string& text, const std::vector<std::string>& keys, double
     REQUIRE(plus.size() == found.size());
     std::size_t compared = 0;
     double largest = 0;  // force
-    for (const StepRecord& step : plus) largest = std::max(largest, step.force_ind.norm());
+    double energy = 0;
+    double moved = 0;
+    for (const StepRecord& step : plus) {
+      moved = std::max(moved, norm(step.u));
+      largest = std::max(largest, step.force_ind.norm());
+      energy = std::max(energy, step.scalars.at("energy"));
+    }
+    const double rounding = 2e-13 / h;  // what a difference leaves of values that do not change
     for (std::size_t s = 0; s < plus.size(); ++s) {
       if (!same_status(plus[s], minus[s])) break;
       // before and at the touch of an indenter that flies nothing depends on numbers
       if (config.dynamics && plus[s].force_ind.norm() < 1e-3 * largest) continue;
-      ++compared;
       const StepRecord& d = found[s][i];
       const auto du = difference(plus[s].u, minus[s].u, 2 * h),
                  dr = difference(plus[s].reaction, minus[s].reaction, 2 * h);
-      CHECK(norm(difference(d.u, du)) <= tolerance * norm(du));
-      CHECK(norm(difference(d.reaction, dr)) <= tolerance * norm(dr));
+      const double of_reactions = rounding * (norm(plus[s].reaction) + largest);
+      CHECK(norm(difference(d.u, du)) <= tolerance * norm(du) + rounding * moved);
+      CHECK(norm(difference(d.reaction, dr)) <= tolerance * norm(dr) + of_reactions);
       const Vec3 dF = (plus[s].force_ind - minus[s].force_ind) / (2 * h);
-      CHECK((d.force_ind - dF).norm() <= tolerance * dF.norm());
+      CHECK((d.force_ind - dF).norm() <= tolerance * dF.norm() + rounding * largest);
+      if (norm(du) > 1e3 * rounding * moved) ++compared;
       const double dW = (plus[s].scalars.at("energy") - minus[s].scalars.at("energy")) / (2 * h);
       // Runs end at 1e-12 of their forces. A viscous body is not where its stored energy is least,
       // so that its energy has an error of this order.
-      const double left = 1e-11 * plus[s].scalars.at("energy") / h;
+      const double left = 1e-11 * energy / h;
       CHECK(std::abs(d.scalars.at("energy") - dW) <= 10 * tolerance * std::abs(dW) + left);
     }
     CHECK(compared > 0);
@@ -352,7 +361,10 @@ TEST_CASE("derivatives by loads are those of runs: displacements, rotations, for
   check(loaded("force: {y: 0.4, z: 0.2}"), {"loads[0].force.y", "matrix.yeoh.a1"}, 1e-5);
   check(loaded("traction: {x: 0.02}"), {"loads[0].traction.x"}, 1e-5);
   check(loaded("pressure: -0.02"), {"loads[0].pressure"}, 1e-5);
-  // together with an indenter under force control, with friction, and with viscous branches
+  // together with an indenter under force control, with friction, and with viscous branches; how
+  // close to balance a sliding one comes is a matter of rounding
+  std::string closely = four;
+  closely.replace(closely.find("1.0e-12"), 7, "1.0e-11");
   std::string free_to_slide = plate;
   free_to_slide.replace(free_to_slide.find("[{on: bottom, hold: [x, y, z]}]"), 31,
                         "[{on: bottom, hold: [y]}, {on: x_min, hold: [x, z]}]");
@@ -360,7 +372,7 @@ TEST_CASE("derivatives by loads are those of runs: displacements, rotations, for
             "loads: [{on: x_max, displacement: {x: 0.8}}]\n"
             "contacts: {ball: {on: disc, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, "
             "friction: 0.3, control: {force: 1, along: [0, -1, 0]}}}\n" +
-            four,
+            closely,
         {"loads[0].displacement.x", "contacts.ball.control.force"}, 1e-3);
   check(plate.substr(0, plate.find("material: ")) + "material: " + with_branches(skin, branches) +
             "loads: [{on: disc, pressure: -0.02}]\n" + four_in_two_seconds,
@@ -372,6 +384,45 @@ TEST_CASE("derivatives by loads are those of runs: displacements, rotations, for
       "displacement: {x: 0.9}}]\nmaterial: " +
           skin + four,
       {"loads[0].displacement.x"}, 1e-5);
+}
+
+namespace {
+
+// A ball that is pressed in, lifted above the surface, and held by what it has touched.
+std::string sticky(const std::string& law, double friction = 0, double up = 0.1) {
+  return "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, "
+         "friction: " +
+         std::to_string(friction) + ", adhesion: {" + law +
+         "}, motion: [{t: 0.5, to: [0, -0.6, 0]}, {t: 1, to: [0, " + std::to_string(up) +
+         ", 0]}]}}\n";
+}
+const std::string eight =
+    "path: {steps: 8}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n";
+
+}  // namespace
+
+TEST_CASE("derivatives through adhesion are those of runs: bonds that hold and that come loose") {
+  const std::string body = block("hex8", "[6, 2, 6]") + "material: " + skin;
+  const std::string work = "contacts.ball.adhesion.work";
+  const std::string stiffness = "contacts.ball.adhesion.stiffness";
+  const std::string tangential = "contacts.ball.adhesion.tangential";
+  const std::string radius = "contacts.ball.rigid.sphere.radius";
+  // none comes loose
+  check(body + sticky("work: 0.1, stiffness: 0.5") + eight,
+        {"matrix.yeoh.a1", "fibres[0].alpha", stiffness, radius, "mesh.geometry.block.size[1]"},
+        1e-5);
+  // some do, at once and slowly, and some come back
+  check(body + sticky("work: 2.0e-3, stiffness: 0.1, tangential: 0.05") + eight,
+        {"matrix.yeoh.a1", work, stiffness, tangential, radius}, 1e-5);
+  check(body + sticky("work: 1.0e-3, stiffness: 0.5, viscosity: 2.0e-3") +
+            "path: {steps: 8, seconds: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n",
+        {"matrix.yeoh.a1", work, "contacts.ball.adhesion.viscosity"}, 1e-5);
+  check(body + sticky("work: 2.0e-3, stiffness: 0.1, tangential: 0.05", 0.3) + eight,
+        {"matrix.yeoh.a1", work, tangential, "contacts.ball.friction"}, 1e-3);
+  std::string heals = sticky("work: 2.0e-3, stiffness: 0.1, healing: true");
+  heals.replace(heals.find("{t: 1, to:"), 10, "{t: 0.75, to: [0, 0.1, 0]}, {t: 1, to:");
+  heals.replace(heals.rfind("0.100000"), 8, "-0.3");
+  check(body + heals + "symmetry: half_turn\n" + eight, {"matrix.yeoh.a1", work, stiffness}, 1e-5);
 }
 
 TEST_CASE("one of two equal loads takes the symmetry away, and a history has no derivative") {
@@ -613,6 +664,26 @@ TEST_CASE("a run continued from any of its steps has the same derivatives to the
                       ball(0.3, press_and_hold) + four_in_two_seconds +
                       listed({"matrix.yeoh.a1", "viscous[0].tau", "contacts.ball.friction"})),
       {0, 1, 2});
+}
+
+TEST_CASE(
+    "derivatives through adhesion end where bonds let go in a jump, and continue when killed") {
+  const std::string body = block("hex8", "[6, 2, 6]") + "material: " + skin;
+  const std::string keys = listed({"matrix.yeoh.a1", "contacts.ball.adhesion.work"});
+  const SolveConfig jumps =
+      test::config_of(body + sticky("work: 5.0e-3, stiffness: 3", 0, 2) +
+                      "path: {first: 0.1, largest: 0.1}\nstability: off\n" + keys);
+  std::vector<Steps> derivatives;
+  CHECK_THROWS_WITH_AS(steps_of(jumps, &derivatives), doctest::Contains("let go in a jump"),
+                       Failure);
+  CHECK(!derivatives.empty());  // of the steps before
+  const SolveConfig config = test::config_of(
+      body + sticky("work: 2.0e-3, stiffness: 0.1, tangential: 0.05", 0.3) + eight + keys);
+  check_continued(config, {0, 3, 5, 6});
+  CHECK_THROWS_WITH_AS(
+      steps_of(test::config_of(body + sticky("work: 2.0e-3, stiffness: 0.5") + eight +
+                               listed({"contacts.ball.adhesion.tangential"}))),
+      doctest::Contains("tangential above 0"), Failure);
 }
 
 TEST_CASE(

@@ -13,18 +13,18 @@ struct TwoSurfaces {
   VecX x;
 };
 
-struct Patch {
+struct PlaneSurface {
   int n_x, n_z;
   double from_x, to_x, from_z, to_z;
 };
 
 // height(x, z) of each; facets counter-clockwise seen from outside of the body
 template <class Upper, class Lower>
-TwoSurfaces two_surfaces(const Patch& upper, const Patch& lower, const Upper& upper_height,
-                         const Lower& lower_height) {
+TwoSurfaces two_surfaces(const PlaneSurface& upper, const PlaneSurface& lower,
+                         const Upper& upper_height, const Lower& lower_height) {
   TwoSurfaces out;
   std::vector<Vec3> X;
-  const auto add = [&](const Patch& patch, const auto& height, bool faces_down,
+  const auto add = [&](const PlaneSurface& patch, const auto& height, bool faces_down,
                        std::vector<QuadNodes>& facets) {
     const int first = static_cast<int>(X.size());
     for (int k = 0; k <= patch.n_z; ++k)

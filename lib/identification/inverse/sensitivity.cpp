@@ -231,11 +231,15 @@ std::vector<ParameterChange> Sensitivity::changes(std::vector<double>& energies)
   return out;
 }
 
-// What a number changes of the contact laws: the friction or the shape of one indenter.
+// What a number changes of the contact laws: the friction, the shape or the bonds of one indenter.
 void Sensitivity::add_contact_change(std::size_t i, ParameterChange& change) const {
   if (parameters_.contact(i).empty()) return;
   for (const RigidContact& contact : run_.reduction.scene().contacts) {
     const bool is_it = contact.name == parameters_.contact(i);
+    if (parameters_.bonds(i)) {
+      change.adhesion.push_back(is_it ? *parameters_.bonds(i) : Adhesion{});
+      continue;
+    }
     if (!parameters_.shape(i)) {
       change.mu.push_back(static_cast<double>(is_it));
       continue;
@@ -243,6 +247,8 @@ void Sensitivity::add_contact_change(std::size_t i, ParameterChange& change) con
     auto& shape = change.shapes.emplace_back();
     if (is_it) shape = parameters_.shape(i);
   }
+  for (const SurfaceContact& surface : run_.reduction.scene().surfaces)
+    change.mu.push_back(static_cast<double>(surface.name == parameters_.contact(i)));
 }
 
 // What the thickness of a layer changes of forces and energy where displacements stand still: nodes
@@ -276,6 +282,7 @@ Assembler::Forces Sensitivity::change_by_thickness(std::size_t i) {
 // Direct differentiation of one increment: K du/dp = -df/dp with the factorized tangent of the
 // accepted state, contact and history included. It follows the two last states.
 void Sensitivity::advance(const StepRecord& record) {
+  refuse_jump();
   const StateTangent tangent(run_.increment, earlier_);
   std::vector<double> energies, of_movement;
   const BodyState& now = run_.increment.accepted();
@@ -311,6 +318,23 @@ void Sensitivity::advance(const StepRecord& record) {
   d_last_ = std::move(d);
 }
 
+// The state behind a jump of bonds follows from how many of them it took, which is not a smooth
+// function of any number.
+void Sensitivity::refuse_jump() const {
+  const BondEnergy& now = run_.increment.accepted().in_bonds;
+  const BondEnergy& before = last_.in_bonds;
+  if (now.released == before.released && now.work_of_jumps == before.work_of_jumps) return;
+  throw Failure(
+      Exit::not_converged,
+      Error{{},
+            "sensitivity",
+            fmt::format("bonds of the adhesion let go in a jump between t = {:.6g} and {:.6g}: the "
+                        "state behind it has no derivative",
+                        last_.t, run_.increment.accepted().t),
+            "",
+            "a path that ends before the jump, or no `sensitivity`"});
+}
+
 // Whether an indenter flies by itself.
 bool Sensitivity::has_mass_of_its_own() const {
   return run_.inertia && run_.inertia->options().travel_mass > 0;
@@ -330,10 +354,23 @@ StepRecord Sensitivity::of_part(const StepRecord& record, const StateDerivative&
     contact.r = d.r[k];
     Vec3 force = Vec3::Zero();
     for (const Vec3& r : d.r[k]) force -= r;
+    if (!d.adhesive.empty() && !contact.beta.empty()) {
+      contact.adhesive = d.adhesive[k];
+      for (const Vec3& pull : d.adhesive[k]) force -= pull;
+    }
     for (int j = 0; j < 3 && contacts.size() > 1; ++j)
       out.scalars["force_" + contacts[k].name + "_" + "xyz"[j]] = force[j];
     if (contacts[k].control) out.scalars[travel_of(contacts[k])] = d.travel;
     out.force_ind += force;
+  }
+  const auto& surfaces = run_.increment.surfaces();
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    ContactRecord& contact = out.contacts[surfaces[s].name] = record.contacts.at(surfaces[s].name);
+    contact.r = d.r[contacts.size() + s];
+    Vec3 force = Vec3::Zero();
+    for (const Vec3& r : contact.r) force -= r;
+    for (int j = 0; j < 3; ++j)
+      out.scalars["force_" + surfaces[s].name + "_" + "xyz"[j]] = force[j];
   }
   if (d.motion.present()) {
     out.point_fields[velocity_field] = by_node(d.motion.v);
@@ -416,6 +453,13 @@ void Sensitivity::write(StepRecord& whole) const {
       if (contact.control)
         scalars[derivative_name(travel_of(contact) + "_mm", p)] = d.scalars.at(travel_of(contact));
     }
+    for (const SurfaceContact& surface : run_.scene.surfaces) {
+      const Vec3 force = force_on(d, surface.name);
+      scalars[derivative_name("force_" + surface.name + "_N", p)] =
+          derivative_against(Vec3::Zero(), force_on(whole, surface.name), force);
+      for (int k = 0; k < 3; ++k)
+        scalars[derivative_name("force_" + surface.name + "_" + "xyz"[k] + "_N", p)] = force[k];
+    }
     for (const std::string& set : moved_) {
       Vec3 sum = Vec3::Zero();
       for (int node : run_.mesh.node_sets.at(set))
@@ -430,6 +474,21 @@ void Sensitivity::write(StepRecord& whole) const {
         scalars[derivative_name("u_" + std::string(1, "xyz"[k]) + "_" + name + "_mm", p)] =
             d.u[static_cast<std::size_t>(nodes[0])][k];
   }
+}
+
+// From the states before and at the step that is kept last, and their derivatives.
+BondRates Sensitivity::kept_bonds(std::size_t i) const {
+  const IncrementState& state = run_.increment.state();
+  Bonds bonds(state.contacts);
+  if (bonds.none()) return {};
+  const std::vector<Vec3>& X = state.body.mesh().X;
+  const std::vector<Vec3> c = state.indenters(last_.t, last_.travel);
+  bonds.begin(earlier_.bonds, (last_.t - earlier_.t) * state.options.seconds);
+  bonds.evaluate(X, last_.u, c);
+  ParameterChange change;
+  add_contact_change(i, change);
+  const BondChanges changes(bonds, state.contacts, X, last_.u, c);
+  return changes.after({change, d_earlier_[i].bonds}, d_last_[i].u, last_.r, earlier_.r);
 }
 
 // Restores the derivatives of a state that an earlier run kept, to continue from it.
@@ -455,6 +514,7 @@ void Sensitivity::kept(const StepRecord& whole) {
       if (contact.control)
         d.travel = whole.scalars.at(derivative_name(travel_of(contact) + "_mm", p));
   }
+  for (std::size_t i = 0; i < d_last_.size(); ++i) d_last_[i].bonds = kept_bonds(i);
   if (!neighbours_) return;
   neighbours_->begin((last_.t - earlier_.t) * run_.increment.state().options.seconds);
   for (std::size_t i = 0; i < d_last_.size(); ++i)

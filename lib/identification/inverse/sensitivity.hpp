@@ -4,8 +4,9 @@
 // Every accepted state is differentiated directly (solve/state_tangent.hpp). For a parameter of the
 // material, the change of the internal force with u fixed is a difference of two forces; it is
 // exact for moduli, in which forces are linear. With friction an increment needs the derivatives of
-// the two before it; of a body in motion, those of velocities and accelerations. What a viscous
-// body remembers is differentiated by neighbours of it (viscous_neighbours.hpp).
+// the two before it; with bonds that of their states; of a body in motion, those of velocities and
+// accelerations. What a viscous body remembers is differentiated by neighbours of it
+// (viscous_neighbours.hpp).
 #pragma once
 
 #include <map>
@@ -36,7 +37,7 @@ class Sensitivity {
 
   // `listener`, and the derivatives: made after its of_part, and put into the record of the whole
   // body before its of_whole. Throws Failure(not_converged) where the tangent of a state is
-  // singular.
+  // singular, or bonds have let go in a jump.
   RunListener along(RunListener listener);
   // Before a run is resumed: every step that is kept, in order.
   void kept(const StepRecord& whole);
@@ -57,7 +58,9 @@ class Sensitivity {
 
  private:
   bool has_mass_of_its_own() const;
-  void advance(const StepRecord& record);  // of the part
+  void refuse_jump() const;                   // of bonds, on the way to the accepted state
+  BondRates kept_bonds(std::size_t i) const;  // at the last state that is kept
+  void advance(const StepRecord& record);     // of the part
   std::vector<ParameterChange> changes(std::vector<double>& energies);
   void add_contact_change(std::size_t i, ParameterChange& change) const;
   Assembler::Forces change_by_thickness(std::size_t i);

@@ -60,4 +60,23 @@ struct Adhesive {
 Adhesive adhesive(const Adhesion& law, const ShapePoint& shape, const Vec3& v, const Bond& bond,
                   double viscous);
 
+// What a number of the scene changes at a bond, per unit of the number.
+struct BondChange {
+  double beta = 0;  // at the beginning of the increment
+  Vec3 at = Vec3::Zero();
+  Vec3 v = Vec3::Zero();
+  Adhesion law = {};  // of its numbers
+  double viscous = 0;
+  // of gap, normal and curvature at the place of the node, which moves by v
+  ShapePoint shape = {0, Vec3::Zero(), Mat3::Zero()};
+};
+
+// What follows from it, exactly.
+struct AdhesiveChange {
+  double beta = 0;
+  Vec3 force = Vec3::Zero();
+};
+AdhesiveChange adhesive_change(const Adhesion& law, const ShapePoint& shape, const Vec3& v,
+                               const Bond& bond, double viscous, const BondChange& change);
+
 }  // namespace langer

@@ -15,6 +15,12 @@
 
 namespace langer {
 
+VecX positions(const std::vector<Vec3>& X, const VecX& u) {
+  VecX x = u;
+  for (std::size_t i = 0; i < X.size(); ++i) x.segment<3>(3 * static_cast<Eigen::Index>(i)) += X[i];
+  return x;
+}
+
 namespace {
 
 QuadNodes corners(const Mesh& mesh, const Facet& facet) {

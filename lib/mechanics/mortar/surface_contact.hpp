@@ -39,6 +39,9 @@ inline Vec3 position(const VecX& x, int node) {
   return x.segment<3>(3 * static_cast<Eigen::Index>(node));
 }
 
+// of all nodes (3 n), from those at rest and displacements (3 n)
+VecX positions(const std::vector<Vec3>& X, const VecX& u);
+
 struct SurfaceContact {
   std::string name;
   double mu = 0;

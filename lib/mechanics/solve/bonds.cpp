@@ -35,6 +35,13 @@ void Bonds::begin(const BondStates& start, double seconds) {
   damping_ = 0;
 }
 
+double Bonds::viscous(std::size_t contact) const {
+  const double viscosity = contacts_[contact].adhesion->viscosity;
+  double rate = 0;
+  if (viscosity > 0 && seconds_ > 0) rate = viscosity / seconds_;
+  return rate + damping_;
+}
+
 void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c) {
   for (std::size_t k = 0; k < now_.size(); ++k) {
     const RigidContact& contact = contacts_[k];
@@ -43,12 +50,8 @@ void Bonds::evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vecto
       if (!start_[k][i].made) continue;
       const int node = contact.nodes[i];
       const Vec3 v = u.segment<3>(3 * node) - c[k];
-      double rate = 0;
-      if (contact.adhesion->viscosity > 0 && seconds_ > 0) {
-        rate = contact.adhesion->viscosity / seconds_;
-      }
       Adhesive& now = now_[k][i] = adhesive(*contact.adhesion, shape_at(contact.shape, X[node] + v),
-                                            v, start_[k][i], rate + damping_);
+                                            v, start_[k][i], viscous(k));
       const double area = contact.area[i];
       now.force *= area;
       now.tangent *= area;
@@ -122,6 +125,29 @@ double Bonds::loosened() const {
   return most;
 }
 
+bool Bonds::made_anew(std::size_t contact, std::size_t candidate,
+                      const std::vector<std::vector<Vec3>>& r,
+                      const std::vector<std::vector<Vec3>>& r_0) const {
+  const bool touches = !r[contact][candidate].isZero(0);
+  const bool came = r_0[contact][candidate].isZero(0);
+  if (!touches) return false;
+  if (!start_[contact][candidate].made) return true;
+  return came && contacts_[contact].adhesion->healing;
+}
+
+AdhesiveChange Bonds::change(std::size_t contact, std::size_t candidate, const std::vector<Vec3>& X,
+                             const VecX& u, const Vec3& c, const BondChange& by) const {
+  const RigidContact& of = contacts_[contact];
+  const int node = of.nodes[candidate];
+  const Vec3 v = u.segment<3>(3 * node) - c;
+  BondChange all = by;
+  if (seconds_ > 0) all.viscous += by.law.viscosity / seconds_;
+  AdhesiveChange out = adhesive_change(*of.adhesion, shape_at(of.shape, X[node] + v), v,
+                                       start_[contact][candidate], viscous(contact), all);
+  out.force *= of.area[candidate];
+  return out;
+}
+
 BondStates Bonds::after(const std::vector<std::vector<Vec3>>& r,
                         const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
                         const std::vector<Vec3>& c) const {
@@ -130,10 +156,7 @@ BondStates Bonds::after(const std::vector<std::vector<Vec3>>& r,
     for (std::size_t i = 0; i < now_[k].size(); ++i) {
       Bond& bond = next[k][i];
       if (bond.made) bond.beta = now_[k][i].beta;
-      const bool touches = !r[k][i].isZero(0);
-      const bool came = r_0[k][i].isZero(0);
-      if (touches && (!bond.made || (came && contacts_[k].adhesion->healing)))
-        bond = {1, u.segment<3>(3 * contacts_[k].nodes[i]) - c[k], true};
+      if (made_anew(k, i, r, r_0)) bond = {1, u.segment<3>(3 * contacts_[k].nodes[i]) - c[k], true};
     }
   return next;
 }

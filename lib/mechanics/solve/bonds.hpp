@@ -64,8 +64,18 @@ class Bonds {
   BondStates after(const std::vector<std::vector<Vec3>>& r,
                    const std::vector<std::vector<Vec3>>& r_0, const VecX& u,
                    const std::vector<Vec3>& c) const;
+  // whether a candidate does
+  bool made_anew(std::size_t contact, std::size_t candidate,
+                 const std::vector<std::vector<Vec3>>& r,
+                 const std::vector<std::vector<Vec3>>& r_0) const;
+  // What a change of its own numbers, and of its beginning, changes of a bond at u; c: of its
+  // indenter. Times the candidate's area.
+  AdhesiveChange change(std::size_t contact, std::size_t candidate, const std::vector<Vec3>& X,
+                        const VecX& u, const Vec3& c, const BondChange& by) const;
 
  private:
+  double viscous(std::size_t contact) const;  // B [N/mm]
+
   const std::vector<RigidContact>& contacts_;
   bool any_ = false;
   BondStates start_;

@@ -6,26 +6,9 @@
 #include <limits>
 
 #include "mechanics/contact/touch.hpp"
+#include "mechanics/solve/law_rows.hpp"
 
 namespace langer {
-
-namespace {
-
-// How gap and normal at a place change with the number of a shape.
-struct ShapeRate {
-  double gap = 0;
-  Vec3 normal = Vec3::Zero();
-};
-
-ShapeRate shape_rate(const ParameterChange& change, std::size_t contact, const Vec3& x) {
-  if (change.shapes.empty() || !change.shapes[contact]) return {};
-  const ShapeChange& shape = *change.shapes[contact];
-  const ShapePoint less = shape_at(shape.less, x);
-  const ShapePoint more = shape_at(shape.more, x);
-  return {(more.gap - less.gap) / shape.width, (more.normal - less.normal) / shape.width};
-}
-
-}  // namespace
 
 // Linearises the accepted state once: the factor of its tangent, and the contact laws at the nodes
 // that touch. Every derivative then costs one solution.
@@ -33,15 +16,21 @@ StateTangent::StateTangent(Increment& increment, const BodyState& earlier)
     : increment_(increment.state()),
       factor_(increment.condensed_factor()),
       solvable_(increment.factorize_accepted()) {
-  if (!solvable_ || increment_.contacts.empty()) return;
+  if (!solvable_) return;
+  if (!increment_.surfaces.empty()) surfaces_.emplace(increment_, factor_);
+  if (increment_.contacts.empty()) return;
   const BodyState& was = increment_.before;
   expected_ = was.u + increment_.trial.extrapolated * (was.u - earlier.u);
+  const BodyState& now = increment_.now;
+  if (!increment_.bonds.none())
+    bonds_.emplace(increment_.bonds, increment_.contacts, increment_.body.mesh().X, now.u,
+                   increment_.indenters(now.t, now.travel));
   take_candidates();
   if (!near_.empty()) take_rows();
 }
 
-// Collects the candidates that touch, with their laws linearised at the accepted state. Open ones
-// count only where springs support a free body, since the springs act on them.
+// Collects the candidates that touch or are bonded, with their laws linearised at the accepted
+// state. Others count only where springs support a free body, since the springs act on them.
 void StateTangent::take_candidates() {
   const BodyState &now = increment_.now, &before = increment_.before;
   const std::vector<Vec3>& X = increment_.body.mesh().X;
@@ -51,19 +40,20 @@ void StateTangent::take_candidates() {
     const Vec3 c = indenter_displacement(contact, now.t, now.travel);
     const Vec3 c0 = indenter_displacement(contact, before.t, before.travel);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-      const ContactStatus status = defects[k].status[i];
-      if (status == ContactStatus::open && !factor_.with_springs()) continue;
+      Touching touching{defects[k].status[i], bonds_ && bonds_->holds(k, i)};
+      if (!touching.bears() && !factor_.with_springs()) continue;
       const int node = contact.nodes[i];
       const Vec3 x = X[node] + now.u.segment<3>(3 * node);
       const Vec3 x0 = X[node] + increment_.u_start[k].segment<3>(3 * node);
       Near n{k, i, linearise(contact, x, x0, c, c0, now.r[k][i]), {}, Vec3::Zero()};
       n.r = n.law.frame.transpose() * now.r[k][i];
-      slip_.push_back(n.law.q.tail<2>().norm());
-      approach_.push_back(n.law.frame.col(0).dot((x - x0) - (c - c0)));
-      near_.push_back(n);
-      status_.push_back(status);
+      if (touching.bonded) n.law.D += n.law.frame.transpose() * bonds_->tangent(k, i) * n.law.frame;
+      touching.slip = n.law.q.tail<2>().norm();
+      touching.approach = n.law.frame.col(0).dot((x - x0) - (c - c0));
       pushed_ = pushed_ || (static_cast<int>(k) == increment_.controlled_index &&
-                            status != ContactStatus::open);
+                            touching.status != ContactStatus::open);
+      near_.push_back(n);
+      touching_.push_back(touching);
     }
   }
   if (near_.empty()) return;
@@ -82,33 +72,6 @@ void StateTangent::take_candidates() {
   c_ = condensed(state, factor_, near_);
 }
 
-// The law of one candidate, each row of the size of a compliance.
-StateTangent::Rows StateTangent::rows_of(std::size_t p, double typical) const {
-  Rows rows;
-  const double mu = c_.mu[static_cast<Eigen::Index>(p)];
-  if (status_[p] == ContactStatus::open) {
-    rows.r = typical * Mat3::Identity();
-    return rows;
-  }
-  rows.x(0, 0) = 1;
-  if (mu == 0) {
-    rows.r.bottomRightCorner<2, 2>() = typical * Eigen::Matrix2d::Identity();
-  } else if (status_[p] == ContactStatus::stick) {
-    rows.x.bottomRightCorner<2, 2>().setIdentity();
-  } else {
-    // r_t = -mu r_n s:  r_t' + mu r_n' s + mu r_n (1 - s s^T) x_t'/|x_t| = -mu' r_n s
-    const Eigen::Vector2d s = -near_[p].r.tail<2>().normalized();
-    const double turning =
-        mu * near_[p].r[0] / std::max(slip_[p], std::numeric_limits<double>::min());
-    const double scale = 1 / (1 / typical + turning);
-    rows.r.bottomRightCorner<2, 2>() = scale * Eigen::Matrix2d::Identity();
-    rows.r.bottomLeftCorner<2, 1>() = scale * mu * s;
-    rows.x.bottomRightCorner<2, 2>() =
-        scale * turning * (Eigen::Matrix2d::Identity() - s * s.transpose());
-  }
-  return rows;
-}
-
 // The equations of all touching nodes: X (gap and slip) = R (reaction), with the condensed
 // compliance W between them, and one more row for an indenter with a given force. Rows have the
 // size of a compliance, so that the matrix is well scaled.
@@ -120,7 +83,10 @@ void StateTangent::take_rows() {
   MatX M = MatX::Zero(n, n);
   for (Eigen::Index p = 0; p < m; ++p) {
     const auto q = static_cast<std::size_t>(p);
-    const Rows& rows = rows_.emplace_back(rows_of(q, typical));
+    Touching& touching = touching_[q];
+    touching.typical = typical;
+    touching.rows = law_rows({touching.status, c_.mu[p], near_[q].r, touching.slip}, typical);
+    const LawRows& rows = touching.rows;
     M.block(3 * p, 0, 3, 3 * m) = (rows.x * c_.T[q] - rows.r * c_.E[q]) * c_.W.middleRows<3>(3 * p);
     M.block<3, 3>(3 * p, 3 * p) += rows.r;
     // a node that cannot move along an axis has no compliance there: what it sticks by there is
@@ -131,7 +97,6 @@ void StateTangent::take_rows() {
         const Vec3 h = near_[q].law.frame.row(j).transpose();
         M.block<3, 3>(3 * p, 3 * p) += typical * rows.x * h * h.transpose();
       }
-    typical_.push_back(typical);
     if (!pushed_) continue;
     const Vec3 along = c_.along.segment<3>(3 * p);
     Mat3 springs = Mat3::Zero();
@@ -176,7 +141,7 @@ std::vector<Vec3> StateTangent::slip_of_history(const ParameterChange& change,
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const RigidContact& contact = increment_.contacts[n.contact];
-    if (contact.mu == 0 || status_[p] == ContactStatus::open) continue;
+    if (contact.mu == 0 || touching_[p].status == ContactStatus::open) continue;
     const int node = contact.nodes[n.candidate];
     const Vec3 d_u0 = before.u.segment<3>(3 * node);
     const Vec3 d_u = d_u0 + increment_.trial.extrapolated * (d_u0 - earlier.u.segment<3>(3 * node));
@@ -184,8 +149,8 @@ std::vector<Vec3> StateTangent::slip_of_history(const ParameterChange& change,
         contact.control ? Vec3(before.travel * contact.control->along) : Vec3(Vec3::Zero());
     const ExpectedMove move = increment_move().of(contact, node);
     ExpectedMove d{Vec3::Zero(), d_u0, d_u, d_c0, Vec3::Zero()};
-    d.gap0 = shape_rate(change, n.contact, move.X + move.u0 - move.c0).gap;
-    d.gap = shape_rate(change, n.contact, move.X + move.u - move.c).gap;
+    d.gap0 = shape_change(change, n.contact, move.X + move.u0 - move.c0).gap;
+    d.gap = shape_change(change, n.contact, move.X + move.u - move.c).gap;
     const Vec3 from = slip_origin_change(contact, move, d, increment_.slip_tolerance()) - d_c0;
     out[p] = n.law.frame.transpose() * -from;
     out[p][0] = 0;
@@ -215,11 +180,11 @@ StateTangent::ShapeEffect StateTangent::shape_effect(const ParameterChange& chan
   const int node = contact.nodes[n.candidate];
   const Vec3 x =
       increment_.body.mesh().X[static_cast<std::size_t>(node)] + now.u.segment<3>(3 * node);
-  const ShapeRate rate =
-      shape_rate(change, n.contact, x - indenter_displacement(contact, now.t, now.travel));
+  const ShapePoint rate =
+      shape_change(change, n.contact, x - indenter_displacement(contact, now.t, now.travel));
   const Eigen::Vector2d turn = n.law.frame.rightCols<2>().transpose() * rate.normal;
   effect.x[0] = rate.gap;
-  effect.x.tail<2>() = -approach_[p] * turn;
+  effect.x.tail<2>() = -touching_[p].approach * turn;
   effect.r[0] = -n.r.tail<2>().dot(turn);
   effect.r.tail<2>() = n.r[0] * turn;
   return effect;
@@ -233,15 +198,16 @@ VecX StateTangent::right_hand_side(const ParameterChange& change,
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const Near& n = near_[p];
     const auto row = 3 * static_cast<Eigen::Index>(p);
-    h.segment<3>(row) -= rows_[p].x * history[p] +
-                         (rows_[p].x * c_.T[p] - rows_[p].r * n.law.D) * moved_against(change, n);
+    h.segment<3>(row) -=
+        touching_[p].rows.x * history[p] +
+        (touching_[p].rows.x * c_.T[p] - touching_[p].rows.r * n.law.D) * moved_against(change, n);
     const ShapeEffect shape = shape_effect(change, p);
-    h.segment<3>(row) -= rows_[p].x * shape.x - rows_[p].r * shape.r;
+    h.segment<3>(row) -= touching_[p].rows.x * shape.x - touching_[p].rows.r * shape.r;
     double d_mu = 0;
     if (!change.mu.empty()) d_mu = change.mu[n.contact];
-    if (d_mu == 0 || status_[p] != ContactStatus::slip) continue;
+    if (d_mu == 0 || touching_[p].status != ContactStatus::slip) continue;
     const Eigen::Vector2d s = -n.r.tail<2>().normalized();
-    h.segment<2>(row + 1) -= rows_[p].r(1, 1) * d_mu * n.r[0] * s;
+    h.segment<2>(row + 1) -= touching_[p].rows.r(1, 1) * d_mu * n.r[0] * s;
   }
   return h;
 }
@@ -277,10 +243,11 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
   VecX b = h;
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const auto row = 3 * static_cast<Eigen::Index>(p);
-    b.segment<3>(row) += (rows_[p].r * c_.E[p] - rows_[p].x * c_.T[p]) * d.segment<3>(row);
+    b.segment<3>(row) +=
+        (touching_[p].rows.r * c_.E[p] - touching_[p].rows.x * c_.T[p]) * d.segment<3>(row);
     if (pushed_ && !c_.springs.empty())
       b[b.size() - 1] +=
-          typical_[p] * c_.along.segment<3>(row).dot(c_.springs[p] * d.segment<3>(row));
+          touching_[p].typical * c_.along.segment<3>(row).dot(c_.springs[p] * d.segment<3>(row));
   }
   const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
@@ -308,7 +275,7 @@ void StateTangent::add(const Change& change, StateDerivative& to) const {
   for (int row = 0; row < dofs.n_free(); ++row) to.u[dofs.free[row]] += change.move[row];
   to.travel += change.travel;
   for (std::size_t p = 0; p < near_.size(); ++p) {
-    if (status_[p] == ContactStatus::open) continue;
+    if (!touching_[p].bears()) continue;
     const Near& n = near_[p];
     const auto row = 3 * static_cast<Eigen::Index>(p);
     // less the share of the springs; what turns with the normal is the reaction's own
@@ -317,14 +284,79 @@ void StateTangent::add(const Change& change, StateDerivative& to) const {
   }
 }
 
+// The same with deformable surfaces in place of indenters.
+std::optional<StateDerivative> StateTangent::derivative_with_surfaces(const ParameterChange& change,
+                                                                      const StateDerivative& before,
+                                                                      double enough) const {
+  constexpr double exact = 1e-11;  // forces of surfaces are differentiated by differences
+  StateDerivative out = of_rest();
+  if (change.prescribed.size() > 0) out.u = change.prescribed;
+  const VecX f = -on_free_rows(change);
+  VecX rhs = f;
+  SurfaceTangent::Loads loads = surfaces_->loads(change, before.u);
+  double size = rhs.norm();
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 30; ++i) {
+    const auto next = surfaces_->solve(rhs, loads);
+    if (!next) return std::nullopt;
+    StateDerivative trial = out;
+    const Dofs& dofs = increment_.body.dofs();
+    for (int row = 0; row < dofs.n_free(); ++row) trial.u[dofs.free[row]] += next->move[row];
+    surfaces_->add_reactions(*next, trial.r);
+    trial.surface_forces = surfaces_->forces(trial.u, trial.r);
+    rhs = f + on_free_rows(trial);
+    if (i == 0) size = std::max(size, trial.surface_forces.norm());
+    loads = {};
+    const double left = rhs.norm();
+    if (!(left < last)) break;  // that is rounding
+    out = std::move(trial);
+    last = left;
+    if (left <= exact * size) break;
+  }
+  if (!(last <= enough * size)) return std::nullopt;
+  surfaces_->turn_reactions(out.u, out.r);
+  return out;
+}
+
 // A derivative of size zero.
 StateDerivative StateTangent::of_rest() const {
   StateDerivative d;
   d.u = VecX::Zero(increment_.body.dofs().n);
   for (const RigidContact& contact : increment_.contacts)
     d.r.emplace_back(contact.nodes.size(), Vec3::Zero());
+  for (const SurfaceContact& surface : increment_.surfaces.surfaces())
+    d.r.emplace_back(surface.nodes.size(), Vec3::Zero());
   if (increment_.options.inertia) d.motion.v = d.motion.a = d.motion.b = d.u;
   return d;
+}
+
+// What bonds bear beyond their tangent times the movement: what the number changes of their states
+// before and of their laws, and where a bond slides along a curved indenter, the change of the
+// curvature.
+VecX StateTangent::bonds_on_free_rows(const BondMoves& moves, const VecX& du) const {
+  VecX all = VecX::Zero(increment_.body.dofs().n);
+  for (std::size_t p = 0; p < near_.size(); ++p) {
+    if (!touching_[p].bonded) continue;
+    const std::size_t k = near_[p].contact;
+    const std::size_t i = near_[p].candidate;
+    const Vec3 by_tangent = bonds_->tangent(k, i) * bonds_->moved(k, i, moves.change, du);
+    all.segment<3>(3 * static_cast<Eigen::Index>(increment_.contacts[k].nodes[i])) +=
+        bonds_->at(k, i, moves, du).force - by_tangent;
+  }
+  return increment_.on_free_rows(all);
+}
+
+// The forces of candidates that the solution gives are those of contact and bond together.
+void StateTangent::part_bonds_from_reactions(const BondMoves& moves, StateDerivative& d) const {
+  for (std::size_t p = 0; p < near_.size(); ++p) {
+    if (!touching_[p].bonded) continue;
+    const std::size_t k = near_[p].contact;
+    const std::size_t i = near_[p].candidate;
+    d.r[k][i] -= bonds_->tangent(k, i) * bonds_->moved(k, i, moves.change, d.u);
+    if (touching_[p].status == ContactStatus::open) d.r[k][i].setZero();
+  }
+  d.adhesive = bonds_->forces(moves, d.u);
+  d.bonds = bonds_->after(moves, d.u, increment_.now.r, increment_.before.r);
 }
 
 // What a derivative leaves unbalanced: reactions and the skew part of pressures minus K times the
@@ -332,7 +364,8 @@ StateDerivative StateTangent::of_rest() const {
 VecX StateTangent::on_free_rows(const StateDerivative& d) const {
   Assembler& body = increment_.body;
   VecX all = VecX::Zero(body.dofs().n);
-  for (std::size_t k = 0; k < d.r.size(); ++k)
+  if (d.surface_forces.size() > 0) all = d.surface_forces;
+  for (std::size_t k = 0; k < increment_.contacts.size(); ++k)
     for (std::size_t i = 0; i < d.r[k].size(); ++i)
       all.segment<3>(3 * increment_.contacts[k].nodes[i]) += d.r[k][i];
   if (const VecX beside = body.nonsymmetric_part(increment_.now.u, d.u); beside.size() > 0)
@@ -359,15 +392,19 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
                                                         double enough) const {
   constexpr double exact = 1e-12;
   if (!solvable_) return std::nullopt;
+  if (surfaces_) return derivative_with_surfaces(change, before, enough);
   StateDerivative out = of_rest();
   if (change.prescribed.size() > 0) out.u = change.prescribed;
   VecX f = -on_free_rows(change);
   const Inertia* inertia = increment_.options.inertia;
   if (inertia) f -= increment_.on_free_rows(inertia->force_of_history(before.u, before.motion));
+  const BondMoves moves{change, before.bonds};
   VecX rhs = f;
+  if (bonds_) rhs += bonds_on_free_rows(moves, out.u);
   VecX h =
       near_.empty() ? VecX() : right_hand_side(change, slip_of_history(change, before, earlier));
-  if (pushed_) h[h.size() - 1] = typical_.front() * (travel_force_change(before) + change.control);
+  if (pushed_)
+    h[h.size() - 1] = touching_.front().typical * (travel_force_change(before) + change.control);
   double size = rhs.norm();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100; ++i) {
@@ -376,6 +413,7 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     StateDerivative trial = out;
     add(*next, trial);
     rhs = f + on_free_rows(trial);
+    if (bonds_) rhs += bonds_on_free_rows(moves, trial.u);
     if (i == 0) {
       if (!near_.empty()) h.setZero();
       for (const auto& reactions : trial.r)
@@ -396,6 +434,7 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
     last = left;
   }
   if (!(last <= enough * size)) return std::nullopt;
+  if (bonds_) part_bonds_from_reactions(moves, out);
   if (increment_.force_falls() > 0 && !pushed_) {  // it flies
     out.travel = travel_force_change(before) / increment_.force_falls();
   } else if (increment_.controlled_index >= 0 && !pushed_) {  // it rests where it touches
@@ -410,7 +449,8 @@ std::optional<StateDerivative> StateTangent::derivative(const ParameterChange& c
       if (change.shapes.empty()) return by;
       const Vec3 x = position(node) - c;
       const auto contact = static_cast<std::size_t>(increment_.controlled_index);
-      by += shape_rate(change, contact, x).gap * shape_at(increment_.controlled()->shape, x).normal;
+      by +=
+          shape_change(change, contact, x).gap * shape_at(increment_.controlled()->shape, x).normal;
       return by;
     };
     out.travel = touch_travel_change(*increment_.controlled(), increment_.now.t,
@@ -443,9 +483,13 @@ std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& ch
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];
       if (beside.size() > 0) out[j][p.dof] += beside[p.dof];
     }
-    for (std::size_t k = 0; k < derivatives[j].r.size(); ++k)
+    if (derivatives[j].surface_forces.size() > 0) out[j] += derivatives[j].surface_forces;
+    for (std::size_t k = 0; k < increment_.contacts.size(); ++k)
       for (std::size_t i = 0; i < derivatives[j].r[k].size(); ++i)
         out[j].segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].r[k][i];
+    for (std::size_t k = 0; k < derivatives[j].adhesive.size(); ++k)
+      for (std::size_t i = 0; i < derivatives[j].adhesive[k].size(); ++i)
+        out[j].segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].adhesive[k][i];
   }
   return out;
 }

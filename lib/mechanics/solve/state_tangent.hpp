@@ -13,8 +13,15 @@
 // Under force control the sum of the reactions is given, and the travel has a derivative.
 //
 // The factor of the accepted state solves the system, and iterations correct it for what K leaves
-// out: the modulus of linear_dilatation as a function of u, and pressures on a free rim. On the
-// edge between two states of a candidate, the derivative is that of the state which it has.
+// out: the modulus of linear_dilatation as a function of u, pressures on a free rim, and how the
+// curvature of an indenter changes where a bond slides along it. On the edge between two states of
+// a candidate, the derivative is that of the state which it has.
+//
+// Bonds of an adhesion join the candidate's force: their tangent turns with it, and what a number
+// changes of their states before and of their law is a load (solve/bond_changes.hpp). Where they
+// let go in a jump, the state behind it has no derivative.
+//
+// Deformable surfaces in place of indenters: solve/surface_tangent.hpp.
 //
 // Of a body in motion (generalised_alpha), accelerations are linear in the movement and in the
 // state before: with that state's derivatives the balance gets M a' of the history, K the mass, and
@@ -25,8 +32,12 @@
 #include <vector>
 
 #include "core/tensor/dense.hpp"
+#include "mechanics/solve/bond_changes.hpp"
 #include "mechanics/solve/condensed_contact.hpp"
 #include "mechanics/solve/increment.hpp"
+#include "mechanics/solve/law_rows.hpp"
+#include "mechanics/solve/parameter_change.hpp"
+#include "mechanics/solve/surface_tangent.hpp"
 
 namespace langer {
 
@@ -36,23 +47,10 @@ struct StateDerivative {
   Reactions r;              // global
   double travel = 0;        // of the indenter under force control, or with mass
   MotionState motion = {};  // of a body in motion: v, a, b and those of an indenter with mass
-};
-
-// An indenter whose number is a little less, or more, by `width` in all.
-struct ShapeChange {
-  Indenter less, more;
-  double width = 1;
-};
-
-// What a number changes where the state stands still; empty: nothing.
-struct ParameterChange {
-  VecX f = {};                  // (3 n) of f_int less the forces
-  std::vector<double> mu = {};  // by contact: of its friction
-  VecX prescribed = {};         // (3 n) of prescribed dofs [mm], 0 elsewhere
-  std::vector<Vec3> indenters =
-      {};  // by contact: of its place [mm], whose orientation stands still
-  std::vector<std::optional<ShapeChange>> shapes = {};  // by contact: of its shape
-  double control = 0;                                   // of the given force on an indenter [N]
+  // of the bonds with which the next increment begins, and of what they bear; empty: none
+  BondRates bonds = {};
+  std::vector<std::vector<Vec3>> adhesive = {};
+  VecX surface_forces = {};  // (3 n) of deformable surfaces on the body; empty: none
 };
 
 class StateTangent {
@@ -76,8 +74,17 @@ class StateTangent {
   StateDerivative of_rest() const;  // nothing changes
 
  private:
-  struct Rows {  // x x' + r r' = h of one candidate, local
-    Mat3 x = Mat3::Zero(), r = Mat3::Zero();
+  std::optional<StateDerivative> derivative_with_surfaces(const ParameterChange& change,
+                                                          const StateDerivative& before,
+                                                          double enough) const;
+  struct Touching {
+    ContactStatus status = ContactStatus::open;
+    bool bonded = false;
+    double slip = 0;      // length [mm]
+    double approach = 0;  // of the increment's movement against the indenter, along the normal
+    double typical = 0;   // compliance that scales the rows
+    LawRows rows = {};
+    bool bears() const { return bonded || status != ContactStatus::open; }
   };
   struct Change {
     VecX move;  // of the free rows
@@ -86,7 +93,6 @@ class StateTangent {
   };
   void take_candidates();
   void take_rows();
-  Rows rows_of(std::size_t p, double typical) const;
   VecX local_of(
       const VecX& last) const;  // movement of the candidates from that of the rows of factor.last()
   IncrementMove increment_move() const;  // that led to the accepted state
@@ -105,19 +111,19 @@ class StateTangent {
   std::optional<Change> solve(const VecX& rhs, const VecX& h) const;
   void add(const Change& change, StateDerivative& to) const;
   VecX on_free_rows(const StateDerivative& d) const;  // of the reactions less the change of f_int
+  // of bonds, what K and the candidates' laws do not have of them; du: all that moves (3 n)
+  VecX bonds_on_free_rows(const BondMoves& moves, const VecX& du) const;
+  void part_bonds_from_reactions(const BondMoves& moves, StateDerivative& d) const;
 
   const IncrementState& increment_;
   TangentFactor& factor_;
   VecX expected_;                           // u that the increment was begun with
+  std::optional<BondChanges> bonds_;        // where something adheres
+  std::optional<SurfaceTangent> surfaces_;  // deformable ones, of a scene without indenters
   bool solvable_ = false, pushed_ = false;  // an indenter under force control bears something
   std::vector<Near> near_;
-  std::vector<ContactStatus> status_;
-  std::vector<double> slip_;  // length [mm]
-  std::vector<double>
-      approach_;  // of the increment's movement against the indenter, along the normal
-  std::vector<double> typical_;  // compliance that scales the rows
+  std::vector<Touching> touching_;  // of each
   Condensed c_;
-  std::vector<Rows> rows_;
   Lu lu_;
   LeastNorm least_;
   bool singular_ = false;

@@ -11,16 +11,6 @@
 
 namespace langer {
 
-namespace {
-
-VecX positions(const std::vector<Vec3>& X, const VecX& u) {
-  VecX x = u;
-  for (std::size_t i = 0; i < X.size(); ++i) x.segment<3>(3 * static_cast<Eigen::Index>(i)) += X[i];
-  return x;
-}
-
-}  // namespace
-
 std::vector<int> TouchingBodies::nodes() const {
   std::set<int> all;
   for (const SurfaceContact& s : surfaces_) all.insert(s.all_nodes.begin(), s.all_nodes.end());
@@ -136,6 +126,21 @@ class Step {
       if (const int row = factor.last_of(static_cast<int>(dof)); row >= 0) moves_[dof] = move[row];
   }
 
+  // Of candidates that bear something.
+  SurfaceSystem system() {
+    bearing_only_ = true;
+    find_mortar_rows();
+    number_columns();
+    assemble();
+    SurfaceSystem out{{}, rows_.dofs, m_.L, m_.G, m_.C, F_, q_, present_, mu_};
+    for (std::size_t s = 0; s < rows_.mortar.size(); ++s) {
+      const MortarLaw& law = rows_.mortar[s];
+      for (std::size_t p = 0; p < law.nodes.size(); ++p)
+        out.rows.push_back({s, static_cast<std::size_t>(law.nodes[p].candidate), law.frames[p]});
+    }
+    return out;
+  }
+
   std::optional<ContactChange> solved() {
     find_rigid_rows();
     find_mortar_rows();
@@ -187,7 +192,7 @@ class Step {
       for (const MortarNode& node : averages[s]) {
         const auto i = static_cast<std::size_t>(node.candidate);
         const double reach = 2 * node.average(moves_).norm() + std::sqrt(node.area);
-        wanted[i] = !r[i].isZero(0) || node.gap() <= reach;
+        wanted[i] = !r[i].isZero(0) || (!bearing_only_ && node.gap() <= reach);
       }
       rows_.mortar.push_back(mortar_law(averages[s], wanted, x_, x0_, r));
     }
@@ -371,6 +376,7 @@ class Step {
   MortarMatrices m_;
   MatX F_;
   VecX q_, present_, mu_, move_;
+  bool bearing_only_ = false;
 };
 
 }  // namespace
@@ -379,6 +385,13 @@ std::optional<ContactChange> linearised_bodies(const ContactState& state, Touchi
                                                const VecX& u_begin, const VecX& prescribed,
                                                const TangentFactor& factor, const VecX& move) {
   return Step(state, bodies, u_begin, prescribed, factor, move).solved();
+}
+
+SurfaceSystem surface_system(const ContactState& state, TouchingBodies& bodies, const VecX& u_begin,
+                             const TangentFactor& factor) {
+  const VecX at_rest = VecX::Zero(state.u.size());
+  const VecX none = VecX::Zero(static_cast<Eigen::Index>(factor.last().size()));
+  return Step(state, bodies, u_begin, at_rest, factor, none).system();
 }
 
 }  // namespace langer

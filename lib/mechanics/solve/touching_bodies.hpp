@@ -59,4 +59,20 @@ std::optional<ContactChange> linearised_bodies(const ContactState& state, Touchi
                                                const VecX& u_begin, const VecX& prescribed,
                                                const TangentFactor& factor, const VecX& move);
 
+// The contact of all candidates of deformable surfaces that bear something, linearised over the
+// degrees of freedom that take part.
+struct SurfaceSystem {
+  struct Row {
+    std::size_t surface, candidate;
+    Mat3 frame;
+  };
+  std::vector<Row> rows;  // three of the matrices each
+  std::vector<int> dofs;  // by column
+  MatX L, G, C, F;        // see above; springs of the factor are taken out in C
+  VecX q, r, mu;          // local gap and slip, and reactions; friction by row
+};
+// state: without indenters that bear something
+SurfaceSystem surface_system(const ContactState& state, TouchingBodies& bodies, const VecX& u_begin,
+                             const TangentFactor& factor);
+
 }  // namespace langer

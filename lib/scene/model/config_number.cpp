@@ -105,6 +105,7 @@ SolveConfig with_config_number(const SolveConfig& config, const std::string& pat
   Tree tree = to_tree(config, as_held);
   set_value(tree, path, plain_tree(number_text(value)));
   SolveConfig other = read_config<SolveConfig>(std::move(tree)).config;
+  other.touching = config.touching;  // which is no key (scene/model/scene_bodies.hpp)
   // a mesh that was chosen has numbers which no file can say
   if (!path.starts_with("mesh.") && !path.starts_with("bodies")) {
     other.mesh = config.mesh;
@@ -130,6 +131,9 @@ std::string unit_of_config_number(const std::string& path) {
       has(".displacement") || has(".radius"))
     return unit::mm;
   if (has(".rotation.angle")) return unit::deg;
+  if (path.ends_with(".adhesion.work")) return "N/mm";
+  if (path.ends_with(".adhesion.viscosity")) return "N s/mm";
+  if (has(".adhesion.")) return "MPa/mm";
   if (has(".pressure") || has(".traction")) return unit::MPa;
   if (has(".force")) return unit::N;
   return unit::none;

@@ -164,6 +164,46 @@ bool SceneParameters::take_shape(const std::string& key, const SolveConfig& conf
   return true;
 }
 
+namespace {
+
+// A number of the law of bonds, and the law in which it alone is 1.
+struct BondNumber {
+  const char* key;
+  const char* unit;
+  double value;
+  Adhesion alone;
+};
+
+std::vector<BondNumber> numbers_of(const Adhesion& law) {
+  return {{"work", "N/mm", law.work, {1, 0, 0, 0}},
+          {"stiffness", "MPa/mm", law.stiffness, {0, 1, 0, 0}},
+          {"tangential", "MPa/mm", law.tangential, {0, 0, 1, 0}},
+          {"viscosity", "N s/mm", law.viscosity, {0, 0, 0, 1}}};
+}
+
+std::string bond_key(const std::string& contact, const BondNumber& number) {
+  return "contacts." + contact + ".adhesion." + number.key;
+}
+
+}  // namespace
+
+// A number of the law by which an indenter adheres.
+bool SceneParameters::take_bonds(const std::string& key, const RigidContact& contact,
+                                 const Error& refused) {
+  for (const BondNumber& number : numbers_of(*contact.adhesion)) {
+    if (key != bond_key(contact.name, number)) continue;
+    if (!(number.value > 0))
+      refuse_number(refused, "which is 0", std::string(number.key) + " above 0", "");
+    Of of;
+    of.contact = contact.name;
+    of.bonds = number.alone;
+    list_.push_back({key, name_of(key), number.unit, number.value});
+    of_.push_back(std::move(of));
+    return true;
+  }
+  return false;
+}
+
 // The thickness of a layer. What acts on its sides, and directions that are given by places, would
 // change with it: then nothing but whole runs tell the derivative.
 bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& config,
@@ -285,9 +325,11 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
     if (other.key == key) refuse("a second time", "each number once");
   std::vector<std::string> known;
   for (const RigidContact& contact : scene.contacts) {
-    if (contact.adhesion)
-      refuse("and the contact \"" + contact.name + "\" has adhesion", "contacts without bonds",
-             "derivatives do not follow what bonds remember");
+    if (contact.adhesion) {
+      for (const BondNumber& number : numbers_of(*contact.adhesion))
+        if (number.value > 0) known.push_back(bond_key(contact.name, number));
+      if (take_bonds(key, contact, refused)) return;
+    }
     const std::string friction = "contacts." + contact.name + ".friction";
     if (contact.mu > 0) known.push_back(friction);
     if (key != friction) continue;
@@ -296,6 +338,15 @@ void SceneParameters::take(const std::string& key, const SolveConfig& config, co
              "without friction nothing says how a contact slips that sticks");
     list_.push_back({key, name_of(key), unit::none, contact.mu});
     of_.push_back({contact.name, "", {}});
+    return;
+  }
+  for (const SurfaceContact& surface : scene.surfaces) {
+    const std::string friction = "contacts." + surface.name + ".friction";
+    if (surface.mu > 0) known.push_back(friction);
+    if (key != friction) continue;
+    if (!(surface.mu > 0)) refuse("which is 0", "friction above 0");
+    list_.push_back({key, name_of(key), unit::none, surface.mu});
+    of_.push_back({surface.name, "", {}});
     return;
   }
   if (take_shape(key, config, refused)) return;
@@ -384,11 +435,16 @@ Scene SceneParameters::varied_unlike(const Scene& scene, const Mesh& mesh) const
     if (!of_laws(i)) {
       for (RigidContact& contact : other.contacts)
         if (contact.name == of_[i].contact) {
-          if (of_[i].shape)
+          if (of_[i].shape) {
             contact.shape = of_[i].shape->more;
-          else
+          } else if (of_[i].bonds) {
+            contact.adhesion->work *= 1 + share;
+          } else {
             contact.mu *= 1 + share;
+          }
         }
+      for (SurfaceContact& surface : other.surfaces)
+        if (surface.name == of_[i].contact) surface.mu *= 1 + share;
       continue;
     }
     const double value = list_[i].value;

@@ -5,6 +5,7 @@
 //   fibres[0].alpha                     angle of a family [deg]: it turns in its cells
 //   contacts.sphere.friction            of an indenter
 //   contacts.sphere.rigid.sphere.radius any number of its shape (scene/model/config_number.hpp)
+//   contacts.sphere.adhesion.work       work, stiffness, tangential, viscosity of its bonds
 //   mesh.bodies[0].thickness            of a flat layer; mesh.geometry.block.size[1] of one body
 //   loads[0].pressure                   or displacement, rotation.angle, force, traction of one number
 //   contacts.sphere.control.force       of an indenter
@@ -55,11 +56,13 @@ class SceneParameters {
   const std::optional<LayerThickness>& layer(std::size_t i) const { return of_[i].layer; }
   // Shapes of contact(i) around that of the scene; nothing where i is no number of a shape.
   const std::optional<ShapeChange>& shape(std::size_t i) const { return of_[i].shape; }
+  // What number i changes of the bonds of contact(i); nothing where it is none of theirs.
+  const std::optional<Adhesion>& bonds(std::size_t i) const { return of_[i].bonds; }
   // Scenes around this one, if number i is one of a load.
   const std::optional<LoadChange>& load(std::size_t i) const { return of_[i].load; }
   const std::string& contact(std::size_t i) const {
     return of_[i].contact;
-  }  // whose friction or shape it is; empty: a number of laws, or a thickness
+  }  // whose friction, shape or bonds it is of; empty: a number of laws, or a thickness
   bool linear(std::size_t i) const { return of_[i].linear; }  // forces and energy are linear in it
   double step(std::size_t i) const;  // of a difference, central but where they are
 
@@ -83,12 +86,14 @@ class SceneParameters {
     std::optional<LayerThickness> layer = {};
     std::optional<ShapeChange> shape = {};
     std::optional<LoadChange> load = {};
+    std::optional<Adhesion> bonds = {};
   };
   void add_other_loads(const SolveConfig& config, const Mesh& mesh, const Scene& scene,
                        const Where& where);
   bool take_load(const std::string& key, const SolveConfig& config, const Mesh& mesh,
                  const Scene& scene, const Where& where);
   bool take_shape(const std::string& key, const SolveConfig& config, const Error& refused);
+  bool take_bonds(const std::string& key, const RigidContact& contact, const Error& refused);
   bool take_thickness(const std::string& key, const SolveConfig& config, const Mesh& mesh,
                       const Scene& scene, const Error& refused);
   void take(const std::string& key, const SolveConfig& config, const Mesh& mesh, const Scene& scene,
