@@ -9,6 +9,7 @@
 #include "mechanics/material/parameters.hpp"
 #include "mortar/bodies.hpp"
 #include "scene/model/config_number.hpp"
+#include "scene/run/body_mesh.hpp"
 #include "support/near.hpp"
 
 using namespace langer;
@@ -218,6 +219,23 @@ TEST_CASE("what derivatives through bodies do not know is refused at its key") {
   CHECK(said("sensitivity: [materials.skin.matrix.yeoh.a1]\n"
              "dynamics: {density_kg_m3: 1100, step: 1.0e-4}\n")
             .find("none in motion") != std::string::npos);
+}
+
+// A surface that touches itself moves with the thickness below it, which its gap would have to
+// know.
+TEST_CASE(
+    "the thickness of a body whose surfaces touch is refused as a number to differentiate by") {
+  auto loaded = read_config<SolveConfig>(parse_yaml(
+      "mesh: {geometry: {block: {size: [2, 1, 2], divisions: [2, 2, 2]}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 0.5}}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}]\nloads: [{on: top, displacement: {y: -0.1}}]\n"
+      "contacts: {fold: {on: top, against: top}}\n"
+      "sensitivity: [\"mesh.geometry.block.size[1]\"]\n",
+      "scene.yaml"));
+  expand_bodies(loaded.config, loaded.where.tree);
+  const Mesh mesh = body_mesh(loaded.config, "", loaded.where);
+  CHECK_THROWS_WITH_AS(Run(mesh, loaded.config, loaded.config.material, loaded.where),
+                       doctest::Contains("and surfaces touch, which would move"), Failure);
 }
 
 }  // namespace body_derivatives_tests

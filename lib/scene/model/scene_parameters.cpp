@@ -214,6 +214,8 @@ bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& 
   if (!layer)
     refuse_number(refused, "and " + why, "the thickness of a flat layer with indenters on one side",
                   "");
+  if (!scene.surfaces.empty())
+    refuse_number(refused, "and surfaces touch, which would move", "another number", "");
   for (const Material& material : scene.materials)
     if (is_viscous(material))
       refuse_number(refused, "and a material is viscous", "an elastic material, or another number",
