@@ -235,6 +235,25 @@ TEST_CASE("a run of two bodies that was killed goes on with the same digits") {
   CHECK(rest.last().scalars.at("force_pad") == whole.last().scalars.at("force_pad"));
 }
 
+TEST_CASE("the force on an indenter does not include what bodies below it exchange") {
+  const StepRecord last =
+      solved(bodies_scene(
+                 "bodies:\n  skin: " + block("[-2, 0, -2]", "[4, 1, 4]", "[4, 2, 4]", soft) +
+                 "\n  pad: " + block("[-1, 1, -1]", "[2, 1, 2]", "[4, 2, 4]", soft) +
+                 "\n"
+                 "supports:\n  - {on: skin_bottom, hold: [x, y, z]}\n"
+                 "  - {on: pad_x_min, hold: [x]}\n  - {on: pad_z_min, hold: [z]}\n"
+                 "contacts:\n  pad: {on: pad_bottom, against: skin_top}\n"
+                 "  ball: {on: pad_top, rigid: {sphere: {radius: 3, centre: [0, 5, 0]}}, motion: "
+                 "[{t: 1, to: [0, -0.3, 0]}]}\n"
+                 "path: {first: 0.5, largest: 0.5}\n"))
+          .last();
+  const double on_ball = last.scalars.at("force_ball_y");
+  CHECK(on_ball > 0.01);
+  CHECK(last.force_ind[1] == near(on_ball, 1e-12));
+  CHECK(std::abs(last.scalars.at("force_pad_y")) == near(on_ball, 1e-6));
+}
+
 TEST_CASE("a body that only friction holds is found between two others") {
   const std::string between =
       "bodies:\n"

@@ -22,7 +22,7 @@ void record_surfaces(const Increment& increment, StepRecord& record) {
                                          {"complementarity", defect.complementarity}})
       record.scalars[measure] = std::max(record.scalars[measure], value);
     for (int j = 0; j < 3; ++j) record.scalars["force_" + name + "_" + "xyz"[j]] = -defect.force[j];
-    record.force_ind -= defect.force;
+    if (increment.contacts().empty()) record.force_ind -= defect.force;  // else of the indenters
     record.scalars["force_" + name] = defect.force.norm();
     double area = 0;
     double pressure = 0;
