@@ -138,13 +138,12 @@ bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.n
 // Evaluates all measures in all states. Sums along the path (energies) are computed first; contact
 // areas, contact values and slip only if a measure needs them.
 Table table_of(const Job<PostConfig>& job, const Solution& solution,
-               const std::vector<RigidContact>& indenters, const ContactStates& contacts,
-               const std::vector<Measure>& measures) {
+               const std::vector<RigidContact>& indenters, std::vector<SurfaceContact> surfaces,
+               const ContactStates& contacts, const std::vector<Measure>& measures) {
   const int n_steps = solution.reader.n_steps();
   const SolutionHeader& header = solution.reader.header();
   const Loads loads = loads_of(header);
-  std::vector<SurfaceContact> surfaces;
-  if (any_quantity(measures, needs_shapes)) surfaces = touching_surfaces(header);
+  if (!any_quantity(measures, needs_shapes)) surfaces.clear();
   EnergyPath path = energy_path(solution.body.mesh(), indenters, header, surfaces);
   for (int row = 0; row <= n_steps; ++row)
     path.add(energy_state(solution.record(row), indenters, loads, surfaces));
@@ -542,7 +541,8 @@ void add_solution_summary(const SolutionReader& reader, std::vector<Summary>& su
 
 // Draws the deformed body. Indenters whose surface is not in the solution cannot be drawn.
 void draw_renders(const Job<PostConfig>& job, const Solution& solution, const Renders& renders,
-                  const std::vector<RigidContact>& indenters, const ContactStates& contacts,
+                  const std::vector<RigidContact>& indenters,
+                  const std::vector<std::string>& missing, const ContactStates& contacts,
                   const std::map<std::string, int>& rows, Pictures& pictures) {
   for (const auto& [name, keyed] : renders) {
     const RenderChoice& choice = keyed.second;
@@ -553,7 +553,7 @@ void draw_renders(const Job<PostConfig>& job, const Solution& solution, const Re
         name, drawing_of(solution, indenters, state, choice, job.config.stress, pictures.look()));
   }
   if (renders.empty()) return;
-  for (const std::string& name : indenters_missing(solution.reader.header(), indenters))
+  for (const std::string& name : missing)
     job.say("not drawn: the indenter \"{}\", whose triangles are not in the solution", name);
 }
 
@@ -564,13 +564,14 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   const SolutionHeader& header = solution.reader.header();
   std::vector<RigidContact> indenters = indenters_of(header);
   follow_records(indenters, solution.reader);
-  const std::vector<std::string> missing = indenters_missing(header, indenters);
+  const std::vector<SurfaceContact> surfaces = touching_surfaces(header);
+  const std::vector<std::string> missing = indenters_missing(header, indenters, surfaces);
 
   // Columns that this solution cannot have are errors, before any work.
   Available available;
   available.contact = !header.contact_nodes.empty();
   available.indenter = !indenters.empty();
-  available.energy = missing.empty() && knows_work(header);
+  available.energy = missing.empty() && knows_work(header, surfaces);
   if (solution.reader.n_steps() > 0)
     for (const auto& [name, value] : solution.reader.step(0).scalars)
       available.histories.push_back(name);
@@ -587,8 +588,8 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   // `further` columns are used by figures and the summary, but are not in the table.
   std::vector<Measure> measures = shown.measures;
   measures.insert(measures.end(), further.measures.begin(), further.measures.end());
-  const ContactStates contacts(solution.reader, indenters);
-  const Table table = table_of(job, solution, indenters, contacts, measures);
+  const ContactStates contacts(solution.reader, indenters, surfaces);
+  const Table table = table_of(job, solution, indenters, surfaces, contacts, measures);
   std::vector<int> snapshots;
   for (std::size_t i = 0; i < config.snapshots.size(); ++i)
     snapshots.push_back(table.row(job, fmt::format("snapshots[{}]", i), config.snapshots[i]));
@@ -610,7 +611,7 @@ std::vector<Summary> post(const Job<PostConfig>& job) {
   if (job.side_folder != csv_file.parent_path()) table_file = "../" + table_file;
   draw_curves(job, config.columns, table_file, static_cast<int>(table.t.size()), pictures);
   draw_maps(job, curves.maps, pictures);
-  draw_renders(job, solution, renders, indenters, contacts, pictured, pictures);
+  draw_renders(job, solution, renders, indenters, missing, contacts, pictured, pictures);
   for (const auto& [reason, names] : pictures.failed())
     job.say("not drawn: {} ({})", names, reason);
   // The cost of the solution is kept for work-precision diagrams (langer-tune).

@@ -264,7 +264,7 @@ class DeckComposer {
     }
     deck_.mesh.node_sets.clear();
     deck_.mesh.facet_sets.clear();
-    for (int n = 0; n < deck_.mesh.n_nodes(); ++n) number_[spot(deck_.mesh.X[n])] = n;
+    for (int n = 0; part_ && n < deck_.mesh.n_nodes(); ++n) number_[spot(deck_.mesh.X[n])] = n;
     for (const Material& m : scene().materials) deck_.materials.push_back(acting(m));
     deck_.groups = groups_of(deck_.mesh, scene());
     deck_.share = static_cast<double>(header_.mesh.n_cells()) / deck_.mesh.n_cells();
@@ -290,19 +290,21 @@ class DeckComposer {
     return whole_;
   }
 
+  // Of a node of the whole body, where it is in the written part. Nodes of two bodies may be at one
+  // place: only a part is searched by position.
+  std::optional<int> number_in_deck(int node) const {
+    if (!part_) return node;
+    const auto at = number_.find(spot(header_.mesh.X[node]));
+    if (at == number_.end()) return std::nullopt;
+    return at->second;
+  }
+
   // Adds the nodes of a set that are in the written part. Returns false if there are none.
   bool add_set(const std::string& set) {
     std::vector<int>& nodes = deck_.mesh.node_sets[set];
     if (!nodes.empty()) return true;
-    for (int n : header_.mesh.node_sets.at(set)) {
-      // Nodes of two bodies may be at one place: of the whole they keep their numbers.
-      if (!part_) {
-        nodes.push_back(n);
-        continue;
-      }
-      const auto at = number_.find(spot(header_.mesh.X[n]));
-      if (at != number_.end()) nodes.push_back(at->second);
-    }
+    for (int n : header_.mesh.node_sets.at(set))
+      if (const auto at = number_in_deck(n)) nodes.push_back(*at);
     std::sort(nodes.begin(), nodes.end());
     if (nodes.empty()) deck_.mesh.node_sets.erase(set);
     return deck_.mesh.node_sets.count(set) > 0;

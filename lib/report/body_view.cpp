@@ -191,7 +191,7 @@ Json indenters_view(const SolutionReader& solution, const std::vector<double>& t
                             {"triangles", packed(triangles)},
                             {"u", list(moved)}}));
   }
-  for (const std::string& name : indenters_missing(header, indenters))
+  for (const std::string& name : indenters_missing(header, indenters, touching_surfaces(header)))
     missing.push_back(words(name));
   return object({{"shown", list(shown)}, {"missing", list(missing)}});
 }
@@ -389,7 +389,8 @@ Json body_view(const std::string& label, const SolutionReader& solution, const s
   std::vector<ShownField> fields = fields_of(config.shown, body);
   std::vector<RigidContact> indenters = indenters_of(header);
   follow_records(indenters, solution);
-  const ContactStates contacts(solution, indenters);
+  const std::vector<SurfaceContact> touching = touching_surfaces(header);
+  const ContactStates contacts(solution, indenters, touching);
   for (const ShownField& f : fields_of(contact_quantities(solution, contacts), body))
     fields.push_back(f);
 

@@ -70,68 +70,14 @@ Mesh cap_mesh(const Cap& cap) {
   return mesh;
 }
 
-double combined_modulus(double E, double nu) { return E / (1 - nu * nu); }
-
-}  // namespace
-
-TEST_CASE("two spheres of other radii and moduli touch as Hertz says") {
-  const Cap lower{100, false, 6};
-  const Cap upper{60, true, 5};
-  auto loaded = read_config<SolveConfig>(
-      parse_yaml("bodies:\n"
-                 "  a: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
-                 "  b: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
-                 "materials:\n"
-                 "  a: {material: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 0.6}}}}\n"
-                 "  b: {material: {matrix: {neo_hooke: {a1: 2}}, volume: {quadratic: {d: 0.3}}}}\n"
-                 "supports:\n"
-                 "  - {on: a_y_min, hold: [x, y, z]}\n"
-                 "  - {on: a_x_min, hold: [x]}\n"
-                 "  - {on: a_z_min, hold: [z]}\n"
-                 "  - {on: b_x_min, hold: [x]}\n"
-                 "  - {on: b_z_min, hold: [z]}\n"
-                 "loads:\n"
-                 "  - {on: b_y_max, displacement: {x: 0, y: -0.0042, z: 0}}\n"
-                 "contacts: {pair: {on: b_touch, against: a_touch}}\n"
-                 "path: {first: 0.5, largest: 0.5}\n",
-                 "scene.yaml"));
+// Two bodies "a" below and "b" above, whose meshes are caps.
+BodiesScene caps_scene(const std::string& text, const Cap& lower, const Cap& upper) {
+  auto loaded = read_config<SolveConfig>(parse_yaml(text, "scene.yaml"));
   BodiesScene scene{std::move(loaded.config), std::move(loaded.where), {}};
   expand_bodies(scene.config, scene.where.tree);
   scene.mesh = joined({{"a", cap_mesh(lower)}, {"b", cap_mesh(upper)}});
-  double centre = 0;
-  double smallest = 1e9;
-  const auto each = [&](const Run& run, const StepRecord& step) {
-    const SurfaceContact& surface = run.increment.surfaces()[0];
-    for (const MortarNode& node : run.increment.surface_averages()[0]) {
-      const auto i = static_cast<std::size_t>(node.candidate);
-      const Vec3& X = run.mesh.X[static_cast<std::size_t>(surface.nodes[i])];
-      const double off = std::hypot(X[0], X[2]);
-      if (off >= smallest && off > 0) continue;
-      smallest = off;
-      centre = step.contacts.at("pair").r[i].dot(node.normal) / node.area;
-    }
-  };
-  const BodiesSolution solution = solved(scene, each);
-  const StepRecord& last = solution.last();
-  // G = 2 a1, K = 2 / d
-  double compliance = 0;
-  for (double G : {2.0, 4.0}) {
-    const double K = G * 2 / 1.2;
-    const double E = 9 * K * G / (3 * K + G);
-    compliance += 1 / combined_modulus(E, (3 * K - 2 * G) / (6 * K + 2 * G));
-  }
-  const double R = 1 / (1 / lower.radius + 1 / upper.radius);
-  const double force = 4 * last.scalars.at("force_pair_y");  // of the whole spheres
-  const double radius = std::cbrt(3 * std::abs(force) * R * compliance / 4);
-  const double pressure = 1.5 * std::abs(force) / (std::numbers::pi * radius * radius);
-  const double area = 4 * last.scalars.at("contact_area_pair");
-  CHECK(radius > 0.6 * fine);
-  CHECK(radius < fine);
-  CHECK(centre == near(pressure, 0.01));
-  CHECK(std::sqrt(area / std::numbers::pi) == near(radius, 0.5 * fine / 5 / radius));
+  return scene;
 }
-
-namespace {
 
 struct Centre {
   // tractions at the node closest to the middle, along the normal and along x [MPa]; along z it is
@@ -157,7 +103,54 @@ Centre centre_of(const Run& run, const StepRecord& step, const std::string& cont
   return centre;
 }
 
+double combined_modulus(double E, double nu) { return E / (1 - nu * nu); }
+
 }  // namespace
+
+TEST_CASE("two spheres of other radii and moduli touch as Hertz says") {
+  const Cap lower{100, false, 6};
+  const Cap upper{60, true, 5};
+  const BodiesScene scene = caps_scene(
+      "bodies:\n"
+      "  a: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
+      "  b: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
+      "materials:\n"
+      "  a: {material: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 0.6}}}}\n"
+      "  b: {material: {matrix: {neo_hooke: {a1: 2}}, volume: {quadratic: {d: 0.3}}}}\n"
+      "supports:\n"
+      "  - {on: a_y_min, hold: [x, y, z]}\n"
+      "  - {on: a_x_min, hold: [x]}\n"
+      "  - {on: a_z_min, hold: [z]}\n"
+      "  - {on: b_x_min, hold: [x]}\n"
+      "  - {on: b_z_min, hold: [z]}\n"
+      "loads:\n"
+      "  - {on: b_y_max, displacement: {x: 0, y: -0.0042, z: 0}}\n"
+      "contacts: {pair: {on: b_touch, against: a_touch}}\n"
+      "path: {first: 0.5, largest: 0.5}\n",
+      lower, upper);
+  double centre = 0;
+  const auto each = [&](const Run& run, const StepRecord& step) {
+    centre = centre_of(run, step, "pair").normal;
+  };
+  const BodiesSolution solution = solved(scene, each);
+  const StepRecord& last = solution.last();
+  // G = 2 a1, K = 2 / d
+  double compliance = 0;
+  for (double G : {2.0, 4.0}) {
+    const double K = G * 2 / 1.2;
+    const double E = 9 * K * G / (3 * K + G);
+    compliance += 1 / combined_modulus(E, (3 * K - 2 * G) / (6 * K + 2 * G));
+  }
+  const double R = 1 / (1 / lower.radius + 1 / upper.radius);
+  const double force = 4 * last.scalars.at("force_pair_y");  // of the whole spheres
+  const double radius = std::cbrt(3 * std::abs(force) * R * compliance / 4);
+  const double pressure = 1.5 * std::abs(force) / (std::numbers::pi * radius * radius);
+  const double area = 4 * last.scalars.at("contact_area_pair");
+  CHECK(radius > 0.6 * fine);
+  CHECK(radius < fine);
+  CHECK(centre == near(pressure, 0.01));
+  CHECK(std::sqrt(area / std::numbers::pi) == near(radius, 0.5 * fine / 5 / radius));
+}
 
 namespace {
 
@@ -167,26 +160,22 @@ void draw_spheres(int cells, double tolerance) {
   constexpr double mu = 0.3;
   const std::string material =
       "{material: {matrix: {neo_hooke: {a1: 1}}, volume: {quadratic: {d: 0.6}}}}\n";
-  auto loaded = read_config<SolveConfig>(
-      parse_yaml("bodies:\n"
-                 "  a: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
-                 "  b: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
-                 "materials:\n  a: " +
-                     material + "  b: " + material +
-                     "supports:\n"
-                     "  - {on: a_y_min, hold: [x, y, z]}\n"
-                     "  - {on: a_z_min, hold: [z]}\n"
-                     "  - {on: b_z_min, hold: [z]}\n"
-                     "loads:\n"
-                     "  - {on: b_y_max, displacement: {x: [{t: 0.2, to: 0}, {t: 1, to: 0.9e-3}], "
-                     "y: [{t: 0.2, to: -2.2e-3}, {t: 1, to: -2.2e-3}], z: 0}}\n"
-                     "contacts: {pair: {on: b_touch, against: a_touch, friction: 0.3}}\n"
-                     "path: {first: 0.1, largest: 0.1}\n",
-                 "scene.yaml"));
-  BodiesScene scene{std::move(loaded.config), std::move(loaded.where), {}};
-  expand_bodies(scene.config, scene.where.tree);
-  scene.mesh = joined(
-      {{"a", cap_mesh({100, false, cells + 1, true})}, {"b", cap_mesh({100, true, cells, true})}});
+  const BodiesScene scene = caps_scene(
+      "bodies:\n"
+      "  a: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
+      "  b: {mesh: {geometry: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}}}\n"
+      "materials:\n  a: " +
+          material + "  b: " + material +
+          "supports:\n"
+          "  - {on: a_y_min, hold: [x, y, z]}\n"
+          "  - {on: a_z_min, hold: [z]}\n"
+          "  - {on: b_z_min, hold: [z]}\n"
+          "loads:\n"
+          "  - {on: b_y_max, displacement: {x: [{t: 0.2, to: 0}, {t: 1, to: 0.9e-3}], "
+          "y: [{t: 0.2, to: -2.2e-3}, {t: 1, to: -2.2e-3}], z: 0}}\n"
+          "contacts: {pair: {on: b_touch, against: a_touch, friction: 0.3}}\n"
+          "path: {first: 0.1, largest: 0.1}\n",
+      {100, false, cells + 1, true}, {100, true, cells, true});
   int compared = 0;
   const auto each = [&](const Run& run, const StepRecord& step) {
     const double P = std::abs(step.scalars.at("force_pair_y"));

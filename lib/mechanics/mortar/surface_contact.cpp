@@ -139,6 +139,11 @@ Vec3 MortarNode::average(const VecX& u) const {
   return sum;
 }
 
+Vec3 MortarNode::slip(const VecX& u) const {
+  const Vec3 v = average(u);
+  return v - v.dot(normal) * normal;
+}
+
 // A normal at each own node: the mean of the facets around it, weighted with their areas. Half the
 // cross product of the diagonals is the area vector of a facet of four corners, plane or not. The
 // minus sign turns it into the body.
@@ -289,8 +294,7 @@ ContactDefect mortar_defect(const SurfaceContact& contact, const std::vector<Mor
     defect.penetration = std::max(defect.penetration, violation);
     if (!closed) continue;
     const Vec3& n = node.normal;
-    const Vec3 v = node.average(moved);
-    const Vec3 slip = v - v.dot(n) * n;
+    const Vec3 slip = node.slip(moved);
     const double r_n = r.dot(n);
     const double r_t = (r - r_n * n).norm();
     double seen = 0;

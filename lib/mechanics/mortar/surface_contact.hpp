@@ -79,6 +79,7 @@ struct MortarNode {
   std::vector<Weight> own, other;
   double gap() const { return normal.dot(jump); }
   Vec3 average(const VecX& u) const;  // of a nodal field (3 n), own side less the other one
+  Vec3 slip(const VecX& u) const;     // its part along the surface
 };
 
 // x (3 n) [mm]: positions of all nodes. Candidates in ascending order.

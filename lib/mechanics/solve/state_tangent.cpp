@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "mechanics/contact/touch.hpp"
-#include "mechanics/solve/law_rows.hpp"
+#include "mechanics/solve/staged_solution.hpp"
 
 namespace langer {
 
@@ -220,26 +220,14 @@ double StateTangent::travel_force_change(const StateDerivative& before) const {
 
 // rhs: on the free rows; h: of the candidates' rows
 std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const VecX& h) const {
-  const TangentFactor& factor = factor_;
-  const LinearSolver& linear = factor.linear();
   Change out;
   if (near_.empty()) {
-    out.move = linear.solve(rhs);
+    out.move = factor_.linear().solve(rhs);
     if (out.move.allFinite()) return std::optional(out);
     return std::nullopt;
   }
-  const bool halves = factor.kind() == TangentFactor::Kind::whole;
-  LinearSolver::Half half;
-  VecX last(static_cast<Eigen::Index>(factor.last().size()));
-  if (halves) {
-    half = linear.start(rhs);
-    last = half.last;
-  } else {
-    const VecX all = linear.solve(rhs);
-    for (Eigen::Index i = 0; i < last.size(); ++i)
-      last[i] = all[factor.last()[static_cast<std::size_t>(i)]];
-  }
-  const VecX d = local_of(last);
+  const StagedSolution staged(factor_, rhs);
+  const VecX d = local_of(staged.last());
   VecX b = h;
   for (std::size_t p = 0; p < near_.size(); ++p) {
     const auto row = 3 * static_cast<Eigen::Index>(p);
@@ -255,15 +243,7 @@ std::optional<StateTangent::Change> StateTangent::solve(const VecX& rhs, const V
   out.travel = 0;
   if (pushed_) out.travel = answer[d.size()];
   out.d = d + c_.W * out.s;
-  const VecX force = c_.B * out.s;
-  if (halves) {
-    out.move = linear.finish(half, force);
-  } else {
-    VecX all = rhs;
-    for (std::size_t i = 0; i < factor.last().size(); ++i)
-      all[factor.last()[i]] += force[static_cast<Eigen::Index>(i)];
-    out.move = linear.solve(all);
-  }
+  out.move = staged.with(c_.B * out.s);
   if (out.move.allFinite()) return std::optional(out);
   return std::nullopt;
 }

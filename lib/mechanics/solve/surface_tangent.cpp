@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mechanics/solve/staged_solution.hpp"
+
 namespace langer {
 
 namespace {
@@ -83,49 +85,31 @@ SurfaceTangent::Loads SurfaceTangent::loads(const ParameterChange& change,
 
 std::optional<SurfaceTangent::Change> SurfaceTangent::solve(const VecX& rhs,
                                                             const Loads& loads) const {
-  const LinearSolver& linear = factor_.linear();
   const Eigen::Index n = static_cast<Eigen::Index>(system_.dofs.size());
   const Eigen::Index m = system_.q.size();
   Change out{{}, VecX::Zero(m)};
   if (n == 0) {
-    out.move = linear.solve(rhs);
+    out.move = factor_.linear().solve(rhs);
     if (out.move.allFinite()) return out;
     return std::nullopt;
   }
-  const bool halves = factor_.kind() == TangentFactor::Kind::whole;
-  LinearSolver::Half half;
-  VecX last(static_cast<Eigen::Index>(factor_.last().size()));
-  if (halves) {
-    half = linear.start(rhs);
-    last = half.last;
-  } else {
-    const VecX all = linear.solve(rhs);
-    for (Eigen::Index i = 0; i < last.size(); ++i)
-      last[i] = all[factor_.last()[static_cast<std::size_t>(i)]];
-  }
+  const StagedSolution staged(factor_, rhs);
   VecX b = VecX::Zero(n + m);
   if (loads.prescribed.size() > 0) b.head(n) = loads.prescribed;
   if (loads.h.size() > 0) b.tail(m) = loads.h;
   for (Eigen::Index c = 0; c < n; ++c)
     if (const int row = factor_.last_of(system_.dofs[static_cast<std::size_t>(c)]); row >= 0)
-      b[c] += last[row];
+      b[c] += staged.last()[row];
   const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
   out.r = answer.tail(m) / typical_;
   // forces on the rows that the factor has eliminated last
   const VecX s = system_.G * out.r + system_.C * answer.head(n);
-  VecX force = VecX::Zero(last.size());
+  VecX force = VecX::Zero(staged.last().size());
   for (Eigen::Index c = 0; c < n; ++c)
     if (const int row = factor_.last_of(system_.dofs[static_cast<std::size_t>(c)]); row >= 0)
       force[row] = s[c];
-  if (halves) {
-    out.move = linear.finish(half, force);
-  } else {
-    VecX all = rhs;
-    for (Eigen::Index i = 0; i < force.size(); ++i)
-      all[factor_.last()[static_cast<std::size_t>(i)]] += force[i];
-    out.move = linear.solve(all);
-  }
+  out.move = staged.with(force);
   if (out.move.allFinite()) return out;
   return std::nullopt;
 }

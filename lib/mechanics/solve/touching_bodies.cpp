@@ -58,8 +58,7 @@ double TouchingBodies::work_of_friction(const std::vector<Vec3>& X, const VecX& 
     for (const MortarNode& node : averages[s]) {
       const Vec3& force = r[first + s][static_cast<std::size_t>(node.candidate)];
       if (force.isZero(0)) continue;
-      const Vec3 moved = node.average(du);
-      work += force.dot(moved - node.normal * node.normal.dot(moved));
+      work += force.dot(node.slip(du));
     }
   }
   return work;

@@ -89,12 +89,6 @@ void add_nodal(const std::vector<MortarNode>& nodes, const VecX& x, const std::v
     to[i] += f.segment<3>(3 * static_cast<Eigen::Index>(i));
 }
 
-// The slip of a mortar node in a movement of all nodes.
-Vec3 slip_of(const MortarNode& node, const VecX& moved) {
-  const Vec3 v = node.average(moved);
-  return v - v.dot(node.normal) * node.normal;
-}
-
 }  // namespace
 
 // Reactions at both ends of the interval act on the mean slip in it, as those of indenters do.
@@ -110,13 +104,13 @@ void EnergyPath::add_surfaces(const State& now, Interval& step, Ends& from_conta
     add_nodal(nodes[s], x, now.r[k], from_contact.end);
     for (const MortarNode& node : last_nodes_[s]) {
       const Vec3& r = last_.r[k][static_cast<std::size_t>(node.candidate)];
-      step.dissipated -= 0.5 * r.dot(slip_of(node, moved));
+      step.dissipated -= 0.5 * r.dot(node.slip(moved));
     }
     for (const MortarNode& node : nodes[s]) {
       const auto i = static_cast<std::size_t>(node.candidate);
-      step.dissipated -= 0.5 * now.r[k][i].dot(slip_of(node, moved));
+      step.dissipated -= 0.5 * now.r[k][i].dot(node.slip(moved));
       const bool touched = !last_.r[k][i].isZero(0) && !now.r[k][i].isZero(0);
-      if (touched) slips_[k][i] += slip_of(node, moved).norm();
+      if (touched) slips_[k][i] += node.slip(moved).norm();
     }
   }
   last_nodes_ = std::move(nodes);

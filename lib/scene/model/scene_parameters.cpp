@@ -169,16 +169,15 @@ namespace {
 // A number of the law of bonds, and the law in which it alone is 1.
 struct BondNumber {
   const char* key;
-  const char* unit;
   double value;
   Adhesion alone;
 };
 
 std::vector<BondNumber> numbers_of(const Adhesion& law) {
-  return {{"work", "N/mm", law.work, {1, 0, 0, 0}},
-          {"stiffness", "MPa/mm", law.stiffness, {0, 1, 0, 0}},
-          {"tangential", "MPa/mm", law.tangential, {0, 0, 1, 0}},
-          {"viscosity", "N s/mm", law.viscosity, {0, 0, 0, 1}}};
+  return {{"work", law.work, {1, 0, 0, 0}},
+          {"stiffness", law.stiffness, {0, 1, 0, 0}},
+          {"tangential", law.tangential, {0, 0, 1, 0}},
+          {"viscosity", law.viscosity, {0, 0, 0, 1}}};
 }
 
 std::string bond_key(const std::string& contact, const BondNumber& number) {
@@ -197,7 +196,7 @@ bool SceneParameters::take_bonds(const std::string& key, const RigidContact& con
     Of of;
     of.contact = contact.name;
     of.bonds = number.alone;
-    list_.push_back({key, name_of(key), number.unit, number.value});
+    list_.push_back({key, name_of(key), unit_of_config_number(key), number.value});
     of_.push_back(std::move(of));
     return true;
   }

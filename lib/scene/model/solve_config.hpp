@@ -627,7 +627,7 @@ struct SolveConfig {
       if (!std::ranges::all_of(block->divisions, divides))
         found.push_back({key + ".block.divisions", "found together with estimate: refinement",
                          "numbers that are 1 or multiples of 4",
-                         "its coarser meshes have 3/4 and half of the cells, in all bodies alike"});
+                         "its coarser meshes have 3/4 and half of the cells of every body"});
     }
   }
   // Inertia together with what knows equilibria only.

@@ -198,6 +198,7 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header) {
 }
 
 std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header) {
+  if (header.contact_nodes.empty()) return {};
   const auto solve = recorded_config(header);
   if (!solve) return {};
   std::vector<SurfaceContact> surfaces;
@@ -253,8 +254,8 @@ EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
 }
 
 std::vector<std::string> indenters_missing(const SolutionHeader& header,
-                                           const std::vector<RigidContact>& indenters) {
-  const std::vector<SurfaceContact> surfaces = touching_surfaces(header);
+                                           const std::vector<RigidContact>& indenters,
+                                           const std::vector<SurfaceContact>& surfaces) {
   std::vector<std::string> names;
   for (const auto& contact : header.contact_nodes) {
     const std::string& name = contact.first;
@@ -267,9 +268,10 @@ std::vector<std::string> indenters_missing(const SolutionHeader& header,
   return names;
 }
 
-bool knows_work(const SolutionHeader& header) {
+bool knows_work(const SolutionHeader& header, const std::vector<SurfaceContact>& surfaces) {
+  if (surfaces.empty()) return true;
   const auto solve = recorded_config(header);
-  return !solve || !solve->in_motion() || solve->touching.empty();
+  return !solve || !solve->in_motion();
 }
 
 Shown shown_of(const Mesh& mesh) {

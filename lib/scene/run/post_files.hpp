@@ -60,12 +60,13 @@ std::vector<RigidContact> indenters_of(const SolutionHeader& header);
 void follow_records(std::vector<RigidContact>& indenters, const SolutionReader& solution);
 // Deformable surfaces that touch, from that config; none where they are not known.
 std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header);
-// names of contacts that are neither among the indenters nor such surfaces
+// names of contacts that are neither among the indenters nor among such surfaces
 std::vector<std::string> indenters_missing(const SolutionHeader& header,
-                                           const std::vector<RigidContact>& indenters);
+                                           const std::vector<RigidContact>& indenters,
+                                           const std::vector<SurfaceContact>& surfaces);
 // Whether the work of its contacts follows from its steps: in motion that of deformable surfaces is
 // in the energy balance of the solver only.
-bool knows_work(const SolutionHeader& header);
+bool knows_work(const SolutionHeader& header, const std::vector<SurfaceContact>& surfaces);
 // where its loads have kinks, and what they turn
 EnergyPath energy_path(const Mesh& mesh, std::vector<RigidContact> indenters,
                        const SolutionHeader& header, std::vector<SurfaceContact> surfaces = {});

@@ -6,8 +6,9 @@
 namespace langer {
 
 ContactStates::ContactStates(const SolutionReader& solution,
-                             const std::vector<RigidContact>& indenters)
-    : solution_(solution), indenters_(indenters), touching_(touching_surfaces(solution.header())) {
+                             const std::vector<RigidContact>& indenters,
+                             const std::vector<SurfaceContact>& touching)
+    : solution_(solution), indenters_(indenters), touching_(touching) {
   for (const auto& [name, nodes] : solution.header().contact_nodes)
     surfaces_.emplace(name, ContactSurface(solution.header().mesh, nodes));
 }

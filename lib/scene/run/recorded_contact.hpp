@@ -12,7 +12,8 @@ namespace langer {
 // asked for.
 class ContactStates {
  public:
-  ContactStates(const SolutionReader& solution, const std::vector<RigidContact>& indenters);
+  ContactStates(const SolutionReader& solution, const std::vector<RigidContact>& indenters,
+                const std::vector<SurfaceContact>& touching);
   const std::map<std::string, ContactSurface>& surfaces() const { return surfaces_; }
   bool knows_slip() const { return !indenters_.empty() || !touching_.empty(); }
   // of the candidates of a contact at a row of the table of states [mm]; empty where the indenter's
@@ -25,7 +26,7 @@ class ContactStates {
   void go_to(int row) const;
   const SolutionReader& solution_;
   const std::vector<RigidContact>& indenters_;
-  std::vector<SurfaceContact> touching_;  // deformable
+  const std::vector<SurfaceContact>& touching_;  // deformable
   std::map<std::string, ContactSurface> surfaces_;
   mutable std::optional<EnergyPath> path_;
   mutable int row_ = 0;
