@@ -8,10 +8,6 @@ namespace langer {
 
 VecX trial_reactions(const IncrementState& state) {
   VecX out = VecX::Zero(state.body.dofs().n);
-  for (const Prescribed& p : state.body.dofs().prescribed) out[p.dof] = state.body.f_int()[p.dof];
-  if (!state.body.loads().empty())
-    for (const Prescribed& p : state.body.dofs().prescribed)
-      out[p.dof] -= state.body.f_ext()[p.dof];
   for (std::size_t k = 0; k < state.contacts.size(); ++k)
     for (std::size_t i = 0; i < state.trial.r[k].size(); ++i)
       out.segment<3>(3 * state.contacts[k].nodes[i]) += state.trial.r[k][i];
@@ -19,6 +15,11 @@ VecX trial_reactions(const IncrementState& state) {
   if (!state.surfaces.empty())
     state.surfaces.add_forces(state.body.mesh().X, state.trial.u, state.trial.r,
                               state.contacts.size(), out);
+  // Where a support holds a node, internal forces balance contact and support together.
+  for (const Prescribed& p : state.body.dofs().prescribed) out[p.dof] = state.body.f_int()[p.dof];
+  if (!state.body.loads().empty())
+    for (const Prescribed& p : state.body.dofs().prescribed)
+      out[p.dof] -= state.body.f_ext()[p.dof];
   return out;
 }
 
