@@ -122,6 +122,7 @@ void report_results(const Voice& voice, const SolveConfig& config, const Run& ru
   for (const Valued& one : valued(config, run.scene, run.mesh, last)) {
     if (!one.of_force() || has_estimate(estimates, one.name)) continue;
     if (any && config.in_motion()) continue;  // the force of an impact has been named
+    if (one.name == "pull_off") continue;     // that of the end, and not the greatest
     voice.say("{} {:.5g} {}, no error bar", one.name, one.value, one.unit);
     any = true;
   }
