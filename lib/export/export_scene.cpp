@@ -57,10 +57,11 @@ void check_contacts(const SolveConfig& config, const std::string& path) {
   for (const auto& [name, contact] : config.contacts)
     if (contact.rotation)
       refuse(path, "contacts." + name + ".rotation", "an indenter that turns", "one that does not");
-  for (const auto& [name, contact] : config.contacts)
-    if (contact.adhesion && contact.adhesion->work > 0)
-      refuse(path, "contacts." + name + ".adhesion", "an indenter that adheres",
-             "one without adhesion: decks cannot express it");
+  for (const auto* contacts : {&config.contacts, &config.touching})
+    for (const auto& [name, contact] : *contacts)
+      if (contact.adhesion && contact.adhesion->work > 0)
+        refuse(path, "contacts." + name + ".adhesion", "a contact that adheres",
+               "one without adhesion: decks cannot express it");
   for (const auto& [name, contact] : config.contacts)
     if (contact.control)
       refuse(path, "contacts." + name + ".control", "a force-controlled indenter",

@@ -209,18 +209,23 @@ void ContactWatch::finish() const {
 
 std::vector<std::string> ContactWatch::warnings() const {
   std::vector<std::string> lines;
+  const auto warn_of_bonds = [&](const auto& contact) {
+    if (!contact.adhesion) return;
+    const BondZone zone = bond_zone(*contact.adhesion, contact.nodes, mesh_, scene_.materials);
+    if (zone.resolved()) return;
+    lines.push_back(
+        "contacts." + contact.name + ": " +
+        fmt::format(
+            "bonds come loose over about {:.2g} mm (4 shear moduli over adhesion.stiffness), and the "
+            "shortest cells that touch are {:.2g} mm long: the pull depends on the cells; shorten "
+            "them to {:.2g} mm, or lower the stiffness",
+            zone.length, zone.cell, zone.longest_cell()));
+  };
+  for (const SurfaceContact& surface : scene_.surfaces) warn_of_bonds(surface);
   for (std::size_t k = 0; k < found_.size(); ++k) {
     const Found& f = found_[k];
     const std::string name = "contacts." + scene_.contacts[k].name + ": ";
-    if (const RigidContact& contact = scene_.contacts[k]; contact.adhesion)
-      if (const BondZone zone = bond_zone(contact, mesh_, scene_.materials); !zone.resolved())
-        lines.push_back(
-            name +
-            fmt::format(
-                "bonds come loose over about {:.2g} mm (4 shear moduli over adhesion.stiffness), and the "
-                "shortest cells that touch are {:.2g} mm long: the pull depends on the cells; shorten "
-                "them to {:.2g} mm, or lower the stiffness",
-                zone.length, zone.cell, zone.longest_cell()));
+    warn_of_bonds(scene_.contacts[k]);
     if (!f.touched)
       lines.push_back(
           name +

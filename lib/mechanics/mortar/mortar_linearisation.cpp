@@ -125,7 +125,8 @@ std::vector<WeightChange> weight_changes(const SurfaceContact& contact, const Mo
 }  // namespace
 
 MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<char>& wanted,
-                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions) {
+                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions,
+                     const std::vector<Vec3>& bonds) {
   MortarLaw law;
   const VecX moved = x - x0;
   for (const MortarNode& node : nodes) {
@@ -137,6 +138,8 @@ MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<cha
     law.frames.push_back(frame);
     law.q.emplace_back(node.gap(), v[1], v[2]);
     law.r.emplace_back(frame.transpose() * reactions[i]);
+    law.beside.emplace_back(Vec3::Zero());
+    if (!bonds.empty()) law.beside.back() = frame.transpose() * bonds[i];
   }
   return law;
 }
@@ -156,7 +159,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
     row_of[static_cast<std::size_t>(node.candidate)] = static_cast<int>(p);
     const Vec3 v = node.average(moved);
     slip.push_back(v);
-    reaction.push_back(frame * law.r[p]);
+    reaction.push_back(frame * (law.r[p] + law.beside[p]));
     traction.push_back(reaction[p] / node.area);
     for (const auto* side : {&node.own, &node.other})
       for (const Weight& w : *side)

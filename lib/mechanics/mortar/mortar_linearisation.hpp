@@ -18,6 +18,7 @@ struct MortarLaw {
   std::vector<MortarNode> nodes;  // those with a row, in its order
   std::vector<Mat3> frames;       // columns n, t1, t2
   std::vector<Vec3> q, r;         // local
+  std::vector<Vec3> beside;       // local forces that act like r, and are not the law's: bonds
 };
 
 struct MortarMatrices {
@@ -26,11 +27,13 @@ struct MortarMatrices {
   MatX C;  // (columns, columns)
 };
 
-// wanted: by candidate, whether it has a row. x0: positions that the slip is measured from.
-// column_of (3 n): column of a degree of freedom, -1: none. first_row: of this contact's rows in
-// `into`, which is large enough and to which all is added.
+// wanted: by candidate, whether it has a row. bonds: by candidate, global; empty: none. x0:
+// positions that the slip is measured from. column_of (3 n): column of a degree of freedom, -1:
+// none. first_row: of this contact's rows in `into`, which is large enough and to which all is
+// added.
 MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<char>& wanted,
-                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions);
+                     const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions,
+                     const std::vector<Vec3>& bonds = {});
 void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, const VecX& x,
                          const VecX& x0, const std::vector<int>& column_of, int first_row,
                          MortarMatrices& into);

@@ -23,6 +23,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct SurfaceContact {
   std::vector<int> nodes;        // of `own`, ascending: the candidates
   std::vector<int> all_nodes;    // of both sides, ascending
   double reach = 0;              // facets further from each other do not touch [mm]
+  std::optional<Adhesion> adhesion = {};
+  std::vector<double> area = {};  // with adhesion: of the surface at rest, by candidate [mm^2]
   // of a surface that touches itself, by facet; empty: two surfaces
   std::vector<int> rank;                     // place along the surface at rest
   std::vector<std::vector<int>> neighbours;  // facets around it, ascending

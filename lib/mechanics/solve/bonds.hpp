@@ -4,6 +4,13 @@
 // The law of one bond is in contact/adhesion.hpp. Here it is multiplied by the area of each
 // candidate and added to the forces on the body, beside the reactions. Signorini's and Coulomb's
 // laws hold for these reactions alone, so the contact solvers do not know of bonds.
+//
+// Between deformable surfaces a candidate is a mortar node. Its bond opens by
+//   d = sum over the increments of (sum_j w_ij dx_j - sum_k w_ik dy_k)       since it bonded
+// with the weights at the end of each increment; d turns with the normal n. The gap of the law is
+// n . d, the slip the rest. The force acts on both sides with the mortar weights, as a reaction
+// does, and therefore does the work that d stores. Bond::at is -d. A candidate without anything
+// opposite has lost its bond.
 #pragma once
 
 #include <vector>
@@ -12,7 +19,9 @@
 
 namespace langer {
 
-// per contact, per candidate; none of a contact without adhesion
+class TouchingBodies;
+
+// per contact, then per deformable surface; per candidate; none of those without adhesion
 using BondStates = std::vector<std::vector<Bond>>;
 
 // Energies of a path on which bonds come loose [N mm].
@@ -25,12 +34,14 @@ struct BondEnergy {
 
 class Bonds {
  public:
-  explicit Bonds(const std::vector<RigidContact>& contacts);  // refers to them
+  // refers to them; surfaces: nullptr where none adheres
+  explicit Bonds(const std::vector<RigidContact>& contacts, TouchingBodies* surfaces = nullptr);
   bool none() const { return !any_; }
   BondStates at_rest(const std::vector<Vec3>& X) const;  // what touches there is bonded
 
-  // An increment from `start` takes `seconds`; b without them would be infinite stiffness.
-  void begin(const BondStates& start, double seconds);
+  // An increment from `start`, where displacements are u, takes `seconds`; b without them would be
+  // infinite stiffness.
+  void begin(const BondStates& start, double seconds, const std::vector<Vec3>& X, const VecX& u);
   // What the bonds bear at u, c: by contact, the indenter's displacement.
   void evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c);
 
@@ -52,7 +63,8 @@ class Bonds {
   bool of(std::size_t contact) const { return any_ && !now_[contact].empty(); }
   std::vector<Vec3> forces(std::size_t contact) const;
   Vec3 sum(std::size_t contact) const;
-  void add_forces(VecX& f) const;  // (3 n)
+  // on the bodies, of both sides of a surface: (3 n)
+  void add_forces(VecX& f) const;
   double squared_norm() const;
   double stored() const;                                  // [N mm]
   double dissipated_since(const BondStates& from) const;  // by loss of intensity, w A [N mm]
@@ -74,13 +86,25 @@ class Bonds {
                         const VecX& u, const Vec3& c, const BondChange& by) const;
 
  private:
-  double viscous(std::size_t contact) const;  // B [N/mm]
+  const Adhesion& law(std::size_t contact) const;
+  double area(std::size_t contact, std::size_t candidate) const;  // [mm^2]
+  double viscous(std::size_t contact) const;                      // B [N/mm]
+  // the law at a candidate, times its area
+  Adhesive bond(std::size_t contact, std::size_t candidate, const ShapePoint& shape, const Vec3& v,
+                const Bond& from) const;
+  void evaluate_surfaces(const std::vector<Vec3>& X, const VecX& u);
 
   const std::vector<RigidContact>& contacts_;
+  TouchingBodies* surfaces_ = nullptr;
   bool any_ = false;
   BondStates start_;
   double seconds_ = 0, damping_ = 0;
   std::vector<std::vector<Adhesive>> now_;  // times the candidate's area
+  // Of surfaces that adhere: where the increment begins, and what evaluate() found.
+  VecX u_start_;
+  std::vector<std::vector<Vec3>> normals_;   // there, by surface
+  std::vector<std::vector<Vec3>> openings_;  // d of each candidate [mm]
+  VecX on_both_sides_;                       // (3 n) [N]; empty: no surface adheres
 };
 
 }  // namespace langer

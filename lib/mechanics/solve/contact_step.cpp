@@ -158,7 +158,8 @@ std::optional<ContactChange> ContactStep::change_of_contact(const VecX& rhs,
   const std::vector<Vec3> c = state_.indenters(trial_.t, trial_.travel);
   const std::vector<Vec3> c_start = state_.indenters(now_.t, now_.travel);
   if (!state_.surfaces.empty()) {
-    const ContactState state = state_.contact_state(c, c_start);
+    ContactState state = state_.contact_state(c, c_start);
+    state.bonds = &state_.bonds;
     return linearised_bodies(state, state_.surfaces, now_.u, state_.remaining_prescribed(trial_.u),
                              factors_.factor, half.last);
   }

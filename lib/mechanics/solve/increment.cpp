@@ -332,7 +332,8 @@ void Increment::follow(const Arc& arc) {
 }
 
 void Increment::begin_bonds() {
-  state_.bonds.begin(now_.bonds, (trial_.t - now_.t) * state_.options.seconds);
+  state_.bonds.begin(now_.bonds, (trial_.t - now_.t) * state_.options.seconds, body_.mesh().X,
+                     now_.u);
   state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
   jump_ = {};
 }

@@ -40,7 +40,7 @@ IncrementState::IncrementState(Assembler& assembler, std::vector<RigidContact> r
       contacts(std::move(rigid)),
       surfaces(std::move(deformable)),
       options(chosen),
-      bonds(contacts),
+      bonds(contacts, &surfaces),
       scale(scale_of(body)),
       gap_tolerance(options.gap_tolerance.value_or(1e-11 * scale.length)) {
   now.u = VecX::Zero(body.dofs().n);

@@ -11,10 +11,12 @@ namespace {
 
 constexpr double most_loosened = 0.5;
 
-double hardest_work(const std::vector<RigidContact>& contacts) {
+double hardest_work(const Increment& increment) {
   double work = 0;
-  for (const RigidContact& contact : contacts)
+  for (const RigidContact& contact : increment.contacts())
     if (contact.adhesion) work = std::max(work, contact.adhesion->work);
+  for (const SurfaceContact& surface : increment.surfaces())
+    if (surface.adhesion) work = std::max(work, surface.adhesion->work);
   return work;
 }
 
@@ -24,7 +26,7 @@ SolveReport let_go(Increment& increment, const std::function<SolveReport()>& sol
                    const std::function<void(int)>& jumping) {
   constexpr int parts = 400;
   constexpr double settled = 0.05, undamped = 1e-3, stiffest = 1e9;
-  const double work = hardest_work(increment.contacts());
+  const double work = hardest_work(increment);
   SolveReport all;
   Increment::Trial last = increment.saved_trial();
   double damping = work;

@@ -162,6 +162,10 @@ class Step {
  private:
   Vec3 move_of(int node) const { return moves_.segment<3>(3 * static_cast<Eigen::Index>(node)); }
 
+  bool holds(std::size_t contact, std::size_t candidate) const {
+    return state_.bonds && state_.bonds->holds(contact, candidate);
+  }
+
   // Candidates whose gap the movement may close. Those that are far off would only cost time.
   void find_rigid_rows() {
     for (std::size_t k = 0; k < state_.contacts.size(); ++k) {
@@ -175,8 +179,10 @@ class Step {
             state_.X[node] + state_.u_start[k].segment<3>(3 * static_cast<Eigen::Index>(node));
         const double reach = (c - c0).norm() + 2 * move_of(contact.nodes[i]).norm() + 0.05;
         const Vec3& r = state_.r[k][i];
-        if (r.isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
-        const LinearisedContact law = linearise(contact, x, x0, c, c0, r);
+        const bool bonded = holds(k, i);
+        if (!bonded && r.isZero(0) && shape_at(contact.shape, x - c).gap > reach) continue;
+        LinearisedContact law = linearise(contact, x, x0, c, c0, r);
+        if (bonded) law.D += law.frame.transpose() * state_.bonds->tangent(k, i) * law.frame;
         rows_.rigid.push_back({k, i, law, law.frame.transpose() * r});
       }
     }
@@ -186,14 +192,17 @@ class Step {
     const auto& averages = bodies_.at(state_.X, state_.u);
     for (std::size_t s = 0; s < bodies_.surfaces().size(); ++s) {
       const SurfaceContact& surface = bodies_.surfaces()[s];
-      const std::vector<Vec3>& r = state_.r[state_.contacts.size() + s];
+      const std::size_t k = state_.contacts.size() + s;
+      const std::vector<Vec3>& r = state_.r[k];
       std::vector<char> wanted(surface.nodes.size(), 0);
       for (const MortarNode& node : averages[s]) {
         const auto i = static_cast<std::size_t>(node.candidate);
         const double reach = 2 * node.average(moves_).norm() + std::sqrt(node.area);
-        wanted[i] = !r[i].isZero(0) || (!bearing_only_ && node.gap() <= reach);
+        wanted[i] = !r[i].isZero(0) || holds(k, i) || (!bearing_only_ && node.gap() <= reach);
       }
-      rows_.mortar.push_back(mortar_law(averages[s], wanted, x_, x0_, r));
+      const bool adheres = state_.bonds && state_.bonds->of(k);
+      rows_.mortar.push_back(mortar_law(averages[s], wanted, x_, x0_, r,
+                                        adheres ? state_.bonds->forces(k) : std::vector<Vec3>{}));
     }
   }
 
@@ -252,6 +261,7 @@ class Step {
       if (law.nodes.empty()) continue;
       add_mortar_matrices(bodies_.surfaces()[s], law, x_, x0_, rows_.column_of,
                           static_cast<int>(row), m_);
+      add_bonds(s);
       for (std::size_t p = 0; p < law.nodes.size(); ++p) {
         q_.segment<3>(row) = law.q[p];
         present_.segment<3>(row) = law.r[p];
@@ -278,6 +288,33 @@ class Step {
       move_[c] = moves_[rows_.dofs[static_cast<std::size_t>(c)]];
     if (factor_.with_springs())
       for (Eigen::Index c : free) m_.C(c, c) += factor_.gamma();
+  }
+
+  // The forces of bonds follow the movements of their nodes. How weights and normals change the
+  // opening is left out: of the order of the opening over a facet.
+  void add_bonds(std::size_t s) {
+    const std::size_t k = state_.contacts.size() + s;
+    for (const MortarNode& node : rows_.mortar[s].nodes) {
+      const auto candidate = static_cast<std::size_t>(node.candidate);
+      if (!holds(k, candidate)) continue;
+      const Mat3& tangent = state_.bonds->tangent(k, candidate);
+      for (const NodalForce& force : force_operator(node, x_)) {
+        const Mat3 by_opening = force.per_reaction * tangent;
+        for (const auto* side : {&node.own, &node.other})
+          for (const Weight& w : *side) add_block(force.node, w.node, w.of * by_opening);
+      }
+    }
+  }
+
+  void add_block(int to, int by, const Mat3& block) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int row =
+            rows_.column_of[3 * static_cast<std::size_t>(to) + static_cast<std::size_t>(i)];
+        const int column =
+            rows_.column_of[3 * static_cast<std::size_t>(by) + static_cast<std::size_t>(j)];
+        if (row >= 0 && column >= 0) m_.C(row, column) += block(i, j);
+      }
   }
 
   // The movement d and the reactions r.

@@ -58,6 +58,19 @@ double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const
   return std::max(0.0, -force.dot(normal.normalized()));
 }
 
+double pull_force(const std::vector<MortarNode>& nodes, std::span<const Vec3> r,
+                  std::span<const Vec3> bonds) {
+  Vec3 force = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+  for (const MortarNode& node : nodes) {
+    const auto i = static_cast<std::size_t>(node.candidate);
+    force += r[i] + bonds[i];
+    normal += (r[i].norm() + bonds[i].norm()) * node.normal;
+  }
+  if (normal.isZero(0)) return 0;
+  return std::max(0.0, -force.dot(normal.normalized()));
+}
+
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
                        std::vector<double> kinks, std::vector<TurnedSet> turned,
                        std::vector<SurfaceContact> surfaces)
@@ -102,6 +115,12 @@ void EnergyPath::add_surfaces(const State& now, Interval& step, Ends& from_conta
     nodes.push_back(mortar_nodes(surfaces_[s], x));
     add_nodal(last_nodes_[s], x0, last_.r[k], from_contact.begin);
     add_nodal(nodes[s], x, now.r[k], from_contact.end);
+    if (k < last_.bonds.size() && !last_.bonds[k].empty())
+      add_nodal(last_nodes_[s], x0, last_.bonds[k], from_contact.begin);
+    if (k < now.bonds.size() && !now.bonds[k].empty()) {
+      add_nodal(nodes[s], x, now.bonds[k], from_contact.end);
+      step.pull = std::max(step.pull, pull_force(nodes[s], now.r[k], now.bonds[k]));
+    }
     for (const MortarNode& node : last_nodes_[s]) {
       const Vec3& r = last_.r[k][static_cast<std::size_t>(node.candidate)];
       step.dissipated -= 0.5 * r.dot(node.slip(moved));

@@ -40,6 +40,9 @@ struct PathSums {
 // normal of the nodes in contact [N]. u: of all nodes; r, bonds: of the candidates
 double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const Vec3> u,
                   std::span<const Vec3> r, std::span<const Vec3> bonds, const Vec3& c);
+// The same of two deformable surfaces: what pulls the non-mortar side towards the other one.
+double pull_force(const std::vector<MortarNode>& nodes, std::span<const Vec3> r,
+                  std::span<const Vec3> bonds);
 
 // Adds up energies state by state. The sums of a state also depend on the state after it, because
 // the parabola uses both neighbours, so they are computed at the end.
@@ -58,7 +61,7 @@ class EnergyPath {
     std::vector<std::vector<Vec3>> r;
     double stored = 0;  // [N mm]
     VecX loads = {};    // (3 n) forces on the surface [N]; empty without loads
-    // Forces of bonds on the body, like r; empty for a contact without adhesion.
+    // Forces of bonds on the body, like r; empty for a contact or a surface without adhesion.
     std::vector<std::vector<Vec3>> bonds = {};
     double jumps = 0;  // work done since rest in increments that hold a jump
   };

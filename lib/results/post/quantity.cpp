@@ -92,7 +92,7 @@ constexpr QuantityLine lines[]{
      "the whole circle or slab",
      history<"viscous_work">, {.history = "viscous_work"}},
     {"adhesion_stored", "N mm", "energy stored in adhesive bonds",
-     "of indenters that adhere; never negative",
+     "of indenters and surfaces that adhere; never negative",
      history<"adhesion_stored">, {.contact = true, .history = "adhesion_stored"}},
     {"adhesion_dissipated", "N mm", "energy dissipated by adhesion",
      "since rest, by bonds that broke; less if they have healed",
@@ -106,10 +106,10 @@ constexpr QuantityLine lines[]{
      "separated",
      history<"bonded_area">, {.contact = true, .history = "bonded_area"}},
     {"pull_off", "N", "greatest pull so far",
-     "of the bonds on an indenter towards the body, along the normal of the contact; the "
-     "greatest of all indenters; never negative",
+     "of the bonds on an indenter towards the body, or between two bodies, along the normal of the "
+     "contact; the greatest of all contacts; never negative",
      [](const StepState& s) { return s.sums.pull_off; },
-     {.contact = true, .indenter = true, .shapes = true, .history = "adhesion_stored"}},
+     {.contact = true, .shapes = true, .history = "adhesion_stored"}},
     {"work", "N mm", "work of the indenter and of imposed displacements",
      "done on the body since rest; positive where indenter and imposed displacements act against"
      " its resistance",

@@ -3,6 +3,7 @@
 
 #include "mechanics/solve/increment.hpp"
 #include "results/store/solution_file.hpp"
+#include "scene/model/scene.hpp"
 
 namespace langer {
 
@@ -11,7 +12,6 @@ void record_bonds(const Increment& increment, StepRecord& record);
 
 Bond bond_of(const ContactRecord& contact, std::size_t candidate);
 BondEnergy bond_energies(const StepRecord& step);
-void take_bonds(const StepRecord& step, const std::vector<RigidContact>& contacts,
-                BodyState& state);
+void take_bonds(const StepRecord& step, const Scene& scene, BodyState& state);
 
 }  // namespace langer

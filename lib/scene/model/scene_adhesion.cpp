@@ -1,5 +1,7 @@
 #include "scene/model/scene_adhesion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,14 +57,42 @@ void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh
   for (int node : rigid.nodes) rigid.area.push_back(areas[node]);
 }
 
-BondZone bond_zone(const RigidContact& contact, const Mesh& mesh,
+void take_adhesion(SurfaceContact& surface, const ContactConfig& contact, const Mesh& mesh,
+                   const std::vector<Facet>& own, const std::string& key,
+                   const std::function<Place(const std::string&)>& where,
+                   std::vector<Error>& errors) {
+  if (!contact.adhesion || contact.adhesion->work == 0) return;
+  // Beyond, a bond bears less than 2 % of its greatest stress.
+  const double reach = 0.25 * surface.reach;
+  const double opening = std::sqrt(contact.adhesion->work / contact.adhesion->stiffness);
+  if (opening > reach) {
+    const std::string at = key + ".adhesion.stiffness";
+    errors.push_back(
+        {where(at), at,
+         fmt::format(
+             "bonds that open by {:.3g} mm before they give way, on facets that look {:.3g} "
+             "mm far",
+             opening, surface.reach),
+         fmt::format("{:.3g} MPa/mm or more", contact.adhesion->work / (reach * reach)),
+         "or longer facets"});
+    return;
+  }
+  surface.adhesion = contact.adhesion;
+  const VecX areas = nodal_areas(mesh, own);
+  for (int node : surface.nodes) surface.area.push_back(areas[node]);
+  const VecX none = VecX::Zero(3 * static_cast<Eigen::Index>(mesh.n_nodes()));
+  for (const MortarNode& node : mortar_nodes(surface, positions(mesh.X, none)))
+    surface.area[static_cast<std::size_t>(node.candidate)] = node.area;
+}
+
+BondZone bond_zone(const Adhesion& adhesion, const std::vector<int>& candidates, const Mesh& mesh,
                    const std::vector<Material>& materials) {
   BondZone zone{std::numeric_limits<double>::infinity(), 0};
   double softest = std::numeric_limits<double>::infinity();
   for (const Material& material : materials)
     softest = std::min(softest, std::abs(shear_modulus(material)));
-  zone.length = 4 * softest / contact.adhesion->stiffness;
-  for (const Facet& facet : facets_under(mesh, contact.nodes))
+  zone.length = 4 * softest / adhesion.stiffness;
+  for (const Facet& facet : facets_under(mesh, candidates))
     for (const auto& quad : facet_quads(mesh, facet)) {
       double side = 0;
       for (std::size_t k = 0; k < 4; ++k)

@@ -1,5 +1,5 @@
-// Adhesion of an indenter in a scene: which candidates have how much of the body's surface, and
-// whether cells resolve the bonds.
+// Adhesion of an indenter or a surface in a scene: which candidates have how much of the body's
+// surface, and whether cells resolve the bonds.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "mechanics/contact/contact.hpp"
 #include "mechanics/mesh/mesh.hpp"
+#include "mechanics/mortar/surface_contact.hpp"
 #include "scene/model/solve_config.hpp"
 
 namespace langer {
@@ -17,6 +18,13 @@ namespace langer {
 // nothing.
 void take_adhesion(RigidContact& rigid, const ContactConfig& contact, const Mesh& mesh,
                    const std::string& key, const std::function<Place(const std::string&)>& where,
+                   std::vector<Error>& errors);
+
+// The same for surfaces that touch. A candidate has the area that is covered at rest, or else all
+// of the facets around it. Errors: bonds that hold further than opposite facets are looked for.
+void take_adhesion(SurfaceContact& surface, const ContactConfig& contact, const Mesh& mesh,
+                   const std::vector<Facet>& own, const std::string& key,
+                   const std::function<Place(const std::string&)>& where,
                    std::vector<Error>& errors);
 
 // Bonds come loose over a length of about E* w / sigma_max^2 = E*/C_N behind the edge of the
@@ -29,7 +37,7 @@ struct BondZone {
   }  // beyond, the edge of the contact jumps from node to node
   bool resolved() const { return cell <= longest_cell(); }
 };
-BondZone bond_zone(const RigidContact& contact, const Mesh& mesh,
+BondZone bond_zone(const Adhesion& adhesion, const std::vector<int>& candidates, const Mesh& mesh,
                    const std::vector<Material>& materials);
 
 }  // namespace langer

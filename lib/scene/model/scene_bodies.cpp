@@ -9,6 +9,7 @@
 #include "mechanics/assembly/separate_bodies.hpp"
 #include "mechanics/mesh/section.hpp"
 #include "scene/model/make_mesh.hpp"
+#include "scene/model/scene_adhesion.hpp"
 
 namespace langer {
 
@@ -219,7 +220,8 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
           std::any_of(surface.all_nodes.begin(), surface.all_nodes.end(),
                       [&](int node) { return std::binary_search(body.begin(), body.end(), node); });
       if (!touches) continue;
-      rough = rough || surface.mu > 0;
+      const bool sticks = surface.adhesion && surface.adhesion->tangential > 0;
+      rough = rough || surface.mu > 0 || sticks;
       smooth = &surface;
       for (const Vec3& n : mortar_normals(surface, x)) across += n;
     }
@@ -271,6 +273,7 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     if (contact.on == *contact.against) {
       SurfaceContact surface = self_contact(name, contact.friction, mesh, own);
       refuse_overlap(surface, mesh, key, where, errors);
+      take_adhesion(surface, contact, mesh, own, key, where, errors);
       scene.surfaces.push_back(std::move(surface));
       continue;
     }
@@ -291,6 +294,7 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
       continue;
     }
     refuse_overlap(surface, mesh, key, where, errors);
+    take_adhesion(surface, contact, mesh, own, key, where, errors);
     scene.surfaces.push_back(std::move(surface));
   }
   if (config.in_motion()) return;  // inertia resists every motion

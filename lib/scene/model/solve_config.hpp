@@ -112,7 +112,7 @@ struct ContactConfig {
       "angle by which the indenter turns about its axis of revolution (of a sphere about y) by the right hand, in proportion to t; or a "
       "history, as a displacement");
     v(&ContactConfig::adhesion, "adhesion", unit::none,
-      "bonds that hold what has touched the indenter, until they come loose");
+      "bonds that hold what has touched the indenter or the other surface, until they come loose");
   }
   bool deformable() const { return against.has_value(); }
   std::vector<Complaint> complaints() const {
@@ -164,7 +164,6 @@ struct ContactConfig {
     refuse(!motion.empty(), "motion", "`loads` and `supports` move the bodies");
     refuse(control.has_value(), "control", "a load {force: ...} pushes a body");
     refuse(rotation.has_value(), "rotation", "a load {rotation: ...} turns a set");
-    refuse(adhesion.has_value(), "adhesion", "bonds hold on rigid indenters only");
     if (on.empty()) found.push_back({"on", "missing", "the set that touches `against`", ""});
     return found;
   }
@@ -607,7 +606,8 @@ struct SolveConfig {
     if (const auto* newton = std::get_if<NewtonOptions>(&solver))
       refuse(newton->linear == LinearBy::iterative, "solver.newton.linear", "direct");
     for (const auto& [name, contact] : contacts) {
-      refuse(contact.adhesion.has_value(), "contacts." + name + ".adhesion", "none");
+      refuse(contact.adhesion && !sensitivity.empty(), "contacts." + name + ".adhesion",
+             "either adhesion or sensitivity");
       refuse(contact.control.has_value(), "contacts." + name + ".control", "motion");
       refuse(contact.free.has_value(), "contacts." + name + ".free", "motion");
     }

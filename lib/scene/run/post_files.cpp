@@ -347,8 +347,10 @@ EnergyPath::State energy_state(const StepRecord& record, const std::vector<Rigid
     const auto found = record.contacts.find(surface.name);
     if (found == record.contacts.end()) {
       state.r.emplace_back(surface.nodes.size(), Vec3::Zero());
+      state.bonds.emplace_back();
     } else {
       state.r.push_back(found->second.r);
+      state.bonds.push_back(found->second.adhesive);
     }
   }
   if (const auto jumps = record.scalars.find("work_of_jumps"); jumps != record.scalars.end())

@@ -49,11 +49,35 @@ void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whol
   }
 }
 
-// The pull of the bonds of all indenters that adhere, the greatest of them, and how many nodes of
-// the front of a section (of a block all) it comes from.
+// The positions of all nodes (3 n).
+VecX positions_of(const Mesh& mesh, const StepRecord& whole) {
+  VecX x(3 * static_cast<Eigen::Index>(whole.u.size()));
+  for (std::size_t i = 0; i < whole.u.size(); ++i)
+    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.X[i] + whole.u[i];
+  return x;
+}
+
+// The pull of the bonds of all indenters and surfaces that adhere, the greatest of them, and how
+// many nodes of the front of a section (of a block all) it comes from.
 void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, StepForces& forces) {
   int front = mesh.n_nodes();
   if (mesh.section) front = n_front(mesh);
+  const auto count = [&](const std::vector<int>& nodes, const ContactRecord& record, double pull) {
+    double n = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const bool bears = !record.r[i].isZero(0) || !record.adhesive[i].isZero(0);
+      if (nodes[i] < front && bears) ++n;
+    }
+    forces.pull = std::max(forces.pull, pull);
+    forces.of["pull_off"] = forces.pull;
+    forces.touching["pull_off"] = std::max(forces.touching["pull_off"], n);
+  };
+  for (const SurfaceContact& surface : scene.surfaces) {
+    const ContactRecord& record = whole.contacts.at(surface.name);
+    if (record.adhesive.empty()) continue;
+    const auto averages = mortar_nodes(surface, positions_of(mesh, whole));
+    count(surface.nodes, record, pull_force(averages, record.r, record.adhesive));
+  }
   for (const RigidContact& contact : scene.contacts) {
     const ContactRecord& record = whole.contacts.at(contact.name);
     if (record.adhesive.empty()) continue;
@@ -61,14 +85,7 @@ void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, Ste
     if (contact.control) travel = whole.scalars.at("travel_" + contact.name);
     const Vec3 at = indenter_displacement(contact, load_factor_of(whole), travel);
     const double pull = pull_force(contact, mesh, whole.u, record.r, record.adhesive, at);
-    forces.pull = std::max(forces.pull, pull);
-    double n = 0;
-    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-      const bool bears = !record.r[i].isZero(0) || !record.adhesive[i].isZero(0);
-      if (contact.nodes[i] < front && bears) ++n;
-    }
-    forces.of["pull_off"] = forces.pull;
-    forces.touching["pull_off"] = std::max(forces.touching["pull_off"], n);
+    count(contact.nodes, record, pull);
   }
 }
 

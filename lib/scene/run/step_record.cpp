@@ -155,7 +155,6 @@ StepRecord step_record(const Increment& increment, const Assembler& body, double
   if (!increment.surfaces().empty()) record_surfaces(increment, record);
   if (increment.inertia()) record_motion(increment, body, record);
   const auto& contacts = increment.contacts();
-  if (contacts.empty()) return record;
   const auto defects = increment.defects();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactDefect& d = defects[k];
@@ -173,7 +172,7 @@ StepRecord step_record(const Increment& increment, const Assembler& body, double
   }
   if (const RigidContact* controlled = increment.controlled())
     record.scalars["travel_" + controlled->name] = state.travel;
-  record.u_ind = indenter_at(contacts[0], record);
+  if (!contacts.empty()) record.u_ind = indenter_at(contacts[0], record);
   for (const ContactDefect& d : defects) record.force_ind -= d.force;  // of all indenters
   if (!increment.bonds().none()) record_bonds(increment, record);
   return record;
@@ -192,7 +191,7 @@ BodyState state_of(const StepRecord& record, const Scene& scene) {
   }
   for (const SurfaceContact& surface : scene.surfaces)
     state.r.push_back(record.contacts.at(surface.name).r);
-  take_bonds(record, scene.contacts, state);
+  take_bonds(record, scene, state);
   if (!scene.motion) return state;
   const auto kept = [](const std::vector<Vec3>& nodal, bool) {
     VecX all(3 * static_cast<Eigen::Index>(nodal.size()));

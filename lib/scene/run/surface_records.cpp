@@ -12,6 +12,8 @@ void record_surfaces(const Increment& increment, StepRecord& record) {
   const std::size_t first = increment.contacts().size();
   for (std::size_t s = 0; s < defects.size(); ++s) {
     const ContactDefect& defect = defects[s];
+    // Bonds pull at the surface, too: the force is that of both.
+    const Vec3 on_other = -(defect.force + increment.bonds().sum(first + s));
     const std::string& name = increment.surfaces()[s].name;
     ContactRecord& contact = record.contacts[name];
     contact.r = increment.accepted().r[first + s];
@@ -21,9 +23,9 @@ void record_surfaces(const Increment& increment, StepRecord& record) {
                                          {"cone", defect.cone},
                                          {"complementarity", defect.complementarity}})
       record.scalars[measure] = std::max(record.scalars[measure], value);
-    for (int j = 0; j < 3; ++j) record.scalars["force_" + name + "_" + "xyz"[j]] = -defect.force[j];
-    if (increment.contacts().empty()) record.force_ind -= defect.force;  // else of the indenters
-    record.scalars["force_" + name] = defect.force.norm();
+    for (int j = 0; j < 3; ++j) record.scalars["force_" + name + "_" + "xyz"[j]] = on_other[j];
+    if (increment.contacts().empty()) record.force_ind += on_other;  // else of the indenters
+    record.scalars["force_" + name] = on_other.norm();
     double area = 0;
     double pressure = 0;
     for (const MortarNode& node : averages[s]) {
