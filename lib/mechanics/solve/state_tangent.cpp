@@ -463,13 +463,17 @@ std::vector<VecX> StateTangent::reactions(const std::vector<ParameterChange>& ch
       if (changes[j].f.size() > 0) out[j][p.dof] += changes[j].f[p.dof];
       if (beside.size() > 0) out[j][p.dof] += beside[p.dof];
     }
-    if (derivatives[j].surface_forces.size() > 0) out[j] += derivatives[j].surface_forces;
+    VecX of_contact = VecX::Zero(out[j].size());
+    if (derivatives[j].surface_forces.size() > 0) of_contact = derivatives[j].surface_forces;
     for (std::size_t k = 0; k < increment_.contacts.size(); ++k)
       for (std::size_t i = 0; i < derivatives[j].r[k].size(); ++i)
-        out[j].segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].r[k][i];
+        of_contact.segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].r[k][i];
     for (std::size_t k = 0; k < derivatives[j].adhesive.size(); ++k)
       for (std::size_t i = 0; i < derivatives[j].adhesive[k].size(); ++i)
-        out[j].segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].adhesive[k][i];
+        of_contact.segment<3>(3 * increment_.contacts[k].nodes[i]) += derivatives[j].adhesive[k][i];
+    // internal forces at held nodes balance contact and support together
+    for (const Prescribed& p : body.dofs().prescribed) of_contact[p.dof] = 0;
+    out[j] += of_contact;
   }
   return out;
 }
