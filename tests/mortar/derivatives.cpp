@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/inverse/sensitivity.hpp"
+#include "identification/inverse/uncertainty.hpp"
 #include "mechanics/material/parameters.hpp"
 #include "mortar/bodies.hpp"
 #include "scene/model/config_number.hpp"
@@ -236,6 +237,44 @@ TEST_CASE(
   const Mesh mesh = body_mesh(loaded.config, "", loaded.where);
   CHECK_THROWS_WITH_AS(Run(mesh, loaded.config, loaded.config.material, loaded.where),
                        doctest::Contains("and surfaces touch, which would move"), Failure);
+}
+
+// The pad is moved at a side whose lowest nodes touch the skin.
+TEST_CASE("derivatives of reactions at nodes that are moved and touch are those of runs") {
+  std::string text = pressed("0.3", "{x: 0.05, y: -0.1, z: 0}");
+  const std::string from = "pad_top";
+  text.replace(text.find(from), from.size(), "pad_x_max");
+  check(text, {"materials.skin.matrix.yeoh.a1"}, "pad", 1e-3);
+}
+
+// A number known to 10 % moves the force by the derivative.
+TEST_CASE("the force between bodies has the deviation that the parameters give it") {
+  const std::string key = "materials.skin.matrix.yeoh.a1";
+  const std::string text = pressed("0.3", "{x: 0, y: -0.2, z: 0}");
+  const BodiesScene scene = bodies_scene(text + "sensitivity: [" + key + "]\n");
+  ParameterKnowledge known;
+  known.keys = {key};
+  known.names = {"a1"};
+  known.follow = MatX::Identity(1, 1);
+  const double deviation = 0.005;  // [MPa]
+  known.covariance = MatX::Constant(1, 1, deviation * deviation);
+  Run run(scene.mesh, scene.config, scene.config.material, scene.where);
+  Sensitivity sensitivity(run, scene.config, scene.where);
+  const Uncertainty uncertainty(known, run, sensitivity);
+  std::vector<ForceUncertainty> forces;
+  RunListener each;
+  each.of_whole = [&](const StepRecord& step, const SolveReport&) {
+    forces = uncertainty.of(step);
+  };
+  REQUIRE(run.follow(uncertainty.beside(sensitivity.observer()).along(each)).path.complete);
+  REQUIRE(forces.size() == 2);  // and the reaction of the set that is moved
+  CHECK(forces[0].name == "force_pad");
+  const BodiesScene plain = bodies_scene(text);
+  const double h = 3e-4 * 0.05;
+  const double more = solved(changed(plain, key, h)).last().scalars.at("force_pad");
+  const double less = solved(changed(plain, key, -h)).last().scalars.at("force_pad");
+  CHECK(forces[0].deviation == near(deviation * (more - less) / (2 * h), 1e-3));
+  CHECK(forces[0].value == near(0.5 * (more + less), 1e-6));
 }
 
 }  // namespace body_derivatives_tests

@@ -167,6 +167,9 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
     if (contacts.size() > 1)
       add("force_" + contact.name, force_on(whole, contact.name).norm(),
           scalar("force_" + contact.name + "_N"));
+  for (const SurfaceContact& surface : run_.scene.surfaces)
+    add("force_" + surface.name, force_on(whole, surface.name).norm(),
+        scalar("force_" + surface.name + "_N"));
   for (const std::string& set : sensitivity_.moved()) {
     Vec3 sum = Vec3::Zero();
     for (int node : run_.mesh.node_sets.at(set))

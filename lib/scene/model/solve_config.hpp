@@ -597,7 +597,9 @@ struct SolveConfig {
         contacts, [](const auto& contact) { return !contact.second.deformable(); });
     refuse(!sensitivity.empty() && rigid_as_well, "sensitivity",
            "deformable surfaces alone, or indenters alone");
-    refuse(uncertainty && *uncertainty != UncertaintyBy::none, "uncertainty", "none");
+    const bool propagates = uncertainty && *uncertainty != UncertaintyBy::none;
+    refuse(propagates && rigid_as_well, "uncertainty",
+           "deformable surfaces alone, or indenters alone");
     refuse(!truncation.empty(), "truncation", "none");
     refuse(stability == StabilityCheck::each_step || stability == StabilityCheck::last, "stability",
            "auto or off: signs of the tangent are not counted there");
@@ -606,8 +608,9 @@ struct SolveConfig {
     if (const auto* newton = std::get_if<NewtonOptions>(&solver))
       refuse(newton->linear == LinearBy::iterative, "solver.newton.linear", "direct");
     for (const auto& [name, contact] : contacts) {
-      refuse(contact.adhesion && !sensitivity.empty(), "contacts." + name + ".adhesion",
-             "either adhesion or sensitivity");
+      const bool differentiates = !sensitivity.empty() || propagates;
+      refuse(contact.adhesion && differentiates, "contacts." + name + ".adhesion",
+             "either adhesion, or sensitivity and uncertainty");
       refuse(contact.control.has_value(), "contacts." + name + ".control", "motion");
       refuse(contact.free.has_value(), "contacts." + name + ".free", "motion");
     }
