@@ -68,6 +68,7 @@ void LinearSolver::State::order_last() {
     if (place_of[fill_reducing[i]] < 0) order.push_back(fill_reducing[i]);
   order.insert(order.end(), last.begin(), last.end());
   cholmod_free_factor(&L, &common);
+  cholmod_free_sparse(&permuted, &common);
   common.method[0].ordering = CHOLMOD_GIVEN;
   L = cholmod_analyze_p(A, order.data(), nullptr, 0, &common);
   if (!L) return;
@@ -107,10 +108,47 @@ bool LinearSolver::factorize(const std::vector<double>& values) {
   return s.cholesky();
 }
 
+// Each entry of the lower triangle of A moves into the lower triangle of P A P^T.
+void LinearSolver::State::permute_pattern() {
+  const int n = static_cast<int>(A->nrow);
+  permuted = cholmod_allocate_sparse(n, n, A->nzmax, 0, 1, -1, CHOLMOD_REAL, &common);
+  if (!permuted) throw std::bad_alloc();
+  const int *order = static_cast<int*>(L->Perm), *start = static_cast<int*>(A->p),
+            *row = static_cast<int*>(A->i);
+  std::vector<int> place(n);
+  for (int i = 0; i < n; ++i) place[order[i]] = i;
+  int* to_start = static_cast<int*>(permuted->p);
+  std::fill(to_start, to_start + n + 1, 0);
+  for (int c = 0; c < n; ++c)
+    for (int k = start[c]; k < start[c + 1]; ++k) ++to_start[std::min(place[row[k]], place[c]) + 1];
+  for (int c = 0; c < n; ++c) to_start[c + 1] += to_start[c];
+  std::vector<int> next(to_start, to_start + n);
+  int* to_row = static_cast<int*>(permuted->i);
+  permuted_from.resize(A->nzmax);
+  // A is read by the columns of L, so that a column of the result reads few columns of A
+  for (int i = 0; i < n; ++i) {
+    const int c = order[i];
+    for (int k = start[c]; k < start[c + 1]; ++k) {
+      const int at = next[std::min(place[row[k]], i)]++;
+      to_row[at] = std::max(place[row[k]], i);
+      permuted_from[at] = k;
+    }
+  }
+}
+
 bool LinearSolver::State::cholesky() {
   common.status = CHOLMOD_OK;
   trailing_block.resize(0, 0);
-  cholmod_factorize(A, L, &common);
+  if (A->nrow == 0) {
+    cholmod_factorize(A, L, &common);
+  } else {
+    if (!permuted) permute_pattern();
+    const double* from = static_cast<double*>(A->x);
+    double* to = static_cast<double*>(permuted->x);
+    for (std::size_t k = 0; k < permuted_from.size(); ++k) to[k] = from[permuted_from[k]];
+    double no_shift[2] = {0, 0};
+    cholmod_super_numeric(permuted, nullptr, no_shift, L, &common);
+  }
   if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   return common.status != CHOLMOD_NOT_POSDEF && L->minor >= L->n;
 }
@@ -266,9 +304,9 @@ LinearSolver::Size LinearSolver::size() const {
   const State& s = *state_;
   const double nonzeros = static_cast<double>(s.A->nzmax);
   const double block = static_cast<double>(s.last.size());
-  // supernodes and their workspace; two permuted copies of K; the trailing block of the candidates
-  // and their compliance
-  const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 2 * 12.0 * nonzeros +
+  // supernodes and their workspace; K permuted, and where its entries come from; the trailing block
+  // of the candidates and their compliance
+  const double bytes = 8.0 * static_cast<double>(s.L->xsize + s.L->maxcsize) + 16.0 * nonzeros +
                        3 * 8.0 * block * block;
   return {nonzeros, s.common.lnz, bytes, s.common.fl};
 }

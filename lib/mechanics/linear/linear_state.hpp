@@ -41,6 +41,10 @@ struct LinearSolver::State {
   cholmod_common common;
   cholmod_sparse* A = nullptr;
   cholmod_factor* L = nullptr;
+  // tril(P A P^T) in the order of L, made with the first factor of an order: CHOLMOD would
+  // otherwise permute A twice before each factor, which takes longer than a small factor itself
+  cholmod_sparse* permuted = nullptr;
+  std::vector<int> permuted_from;   // entry of permuted -> entry of A
   std::vector<int> fill_reducing;   // rows in METIS's order
   std::vector<int> last;            // rows to eliminate last
   std::vector<int> place_of;        // row -> index in `last`, or -1
@@ -63,6 +67,7 @@ struct LinearSolver::State {
     if (full.numeric) umfpack_di_free_numeric(&full.numeric);
     if (full.symbolic) umfpack_di_free_symbolic(&full.symbolic);
     cholmod_free_factor(&L, &common);
+    cholmod_free_sparse(&permuted, &common);
     cholmod_free_sparse(&A, &common);
     cholmod_finish(&common);
   }
@@ -70,6 +75,7 @@ struct LinearSolver::State {
   void analyse();
   void take_last(std::vector<int> rows);
   void order_last();
+  void permute_pattern();
   bool cholesky();                  // of A as it is
   VecX whole(const VecX& b) const;  // by the CHOLMOD factor, springs included
   bool factorize_indefinite();
