@@ -261,6 +261,30 @@ TEST_CASE("solvers that are made side by side order their unknowns as one alone 
   for (const VecX& x : beside) CHECK(x == alone);  // to the last bit: the same ordering
 }
 
+TEST_CASE("a matrix that is factorized in a given order has the same solution and signs") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const Pattern p = chain(60);
+  std::vector<double> values(p.nnz());
+  for (double& v : values) v = u(random);
+  for (int c = 0; c < p.n; ++c) values[p.column_start[c]] = 5;
+  VecX b(p.n);
+  for (double& v : b) v = u(random);
+  LinearSolver first(p);
+  std::vector<int> backwards(first.order().rbegin(), first.order().rend());
+  LinearSolver given(p, LinearSolver::Order(backwards), 1);
+  CHECK(given.order() == backwards);
+  REQUIRE(first.factorize(values));
+  REQUIRE(given.factorize(values));
+  const VecX x = first.solve(b);
+  CHECK((given.solve(b) - x).norm() < 1e-13 * x.norm());
+  CHECK((dense(p, values) * x - b).norm() < 1e-13 * b.norm());
+  for (const int c : {5, 30, 31}) values[p.column_start[c]] = -5;
+  CHECK_FALSE(given.factorize(values));
+  CHECK(given.negative_pivots(values) == 3);
+  CHECK(first.negative_pivots(values) == 3);
+}
+
 TEST_CASE("the linear solver handles definite, indefinite and singular matrices and says which") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> u(-1, 1);

@@ -118,8 +118,8 @@ bool RunWatch::breaking_at(bool at_end) const {
 int RunWatch::signatures_at_each_step() const {
   const bool at_the_end = asked_.when == StabilityCheck::off || asked_.when == StabilityCheck::last;
   if (mesh_ || at_the_end || !breaking_at(false)) return 0;
-  const std::size_t breaking = run_.reduction.symmetry_breaking_dofs().size();
-  return breaking > 0 ? 1 + static_cast<int>(breaking) : 0;
+  const int breaking = SymmetryBreaking::factors_of_stable(run_.reduction.symmetry_breaking_dofs());
+  return breaking > 0 ? 1 + breaking : 0;
 }
 
 std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {

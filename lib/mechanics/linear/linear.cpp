@@ -8,20 +8,36 @@ namespace langer {
 
 LinearSolver::LinearSolver(const Pattern& pattern, std::vector<int> last, int threads)
     : state_(std::make_unique<State>()) {
+  state_->begin(pattern, threads);
+  state_->take_last(std::move(last));
+  state_->analyse();
+}
+
+LinearSolver::LinearSolver(const Pattern& pattern, Order order, int threads)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
+  const NoNestedThreads guard;
+  s.begin(pattern, threads);
+  s.take_last({});
+  s.fill_reducing = std::move(order.rows);
+  s.order_last();
+  if (!s.L) throw std::bad_alloc();
+}
+
+const std::vector<int>& LinearSolver::order() const { return state_->fill_reducing; }
+
+void LinearSolver::State::begin(const Pattern& pattern, int threads) {
   blas::check_buffers();
   blas::set_threads(std::max(1, threads));
-  cholmod_start(&s.common);
-  s.common.print = 0;
-  s.common.supernodal = CHOLMOD_SUPERNODAL;
-  s.common.final_ll = 1;
-  s.A = cholmod_allocate_sparse(pattern.n, pattern.n, pattern.nnz(), 1, 1, -1, CHOLMOD_REAL,
-                                &s.common);
-  if (!s.A) throw std::bad_alloc();
-  std::copy(pattern.column_start.begin(), pattern.column_start.end(), static_cast<int*>(s.A->p));
-  std::copy(pattern.row.begin(), pattern.row.end(), static_cast<int*>(s.A->i));
-  s.take_last(std::move(last));
-  s.analyse();
+  cholmod_start(&common);
+  common.print = 0;
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  common.final_ll = 1;
+  common.nmethods = 1;
+  A = cholmod_allocate_sparse(pattern.n, pattern.n, pattern.nnz(), 1, 1, -1, CHOLMOD_REAL, &common);
+  if (!A) throw std::bad_alloc();
+  std::copy(pattern.column_start.begin(), pattern.column_start.end(), static_cast<int*>(A->p));
+  std::copy(pattern.row.begin(), pattern.row.end(), static_cast<int*>(A->i));
 }
 
 LinearSolver::~LinearSolver() = default;
@@ -46,7 +62,6 @@ void LinearSolver::eliminate_last(std::vector<int> last) {
 // METIS orders the rows for small fill; order_last() then moves the rows of `last` to the end.
 void LinearSolver::State::analyse() {
   const NoNestedThreads guard;
-  common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
   {
     const auto alone = one_ordering_at_a_time();

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/tensor/types.hpp"
@@ -21,7 +22,16 @@ class LinearSolver {
  public:
   // threads: of the BLAS under CHOLMOD
   LinearSolver(const Pattern& pattern, std::vector<int> last = {}, int threads = 1);
+  // Rows in a given order of elimination, such as order() of a matrix that is nearly the same.
+  struct Order {
+    explicit Order(std::vector<int> of) : rows(std::move(of)) {}
+    std::vector<int> rows;
+  };
+  LinearSolver(const Pattern& pattern, Order order, int threads);
   ~LinearSolver();
+
+  // The order of elimination with small fill, before the rows of `last` are moved to its end.
+  const std::vector<int>& order() const;
 
   // Other rows to eliminate last. The next thing is a factorization.
   void eliminate_last(std::vector<int> last);

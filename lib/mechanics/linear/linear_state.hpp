@@ -72,6 +72,7 @@ struct LinearSolver::State {
     cholmod_finish(&common);
   }
 
+  void begin(const Pattern& pattern, int threads);
   void analyse();
   void take_last(std::vector<int> rows);
   void order_last();

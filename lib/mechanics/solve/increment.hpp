@@ -96,6 +96,10 @@ class Increment {
                             std::vector<std::unique_ptr<LinearSolver>>& solvers) {
     return signs_.signature_under(others, solvers);
   }
+  bool all_positive_under(std::span<OtherTangent> others,
+                          std::vector<std::unique_ptr<LinearSolver>>& solvers) {
+    return signs_.all_positive_under(others, solvers);
+  }
   std::vector<double> constrained_tangent() { return signs_.constrained_tangent(); }
   std::vector<double> constrained_tangent(OtherTangent& other) {
     return signs_.constrained_tangent(other);

@@ -91,6 +91,23 @@ void add_contacts(const std::vector<NodeContact>& contacts, const Dofs& dofs,
   }
 }
 
+// The rows of another tangent in the order in which the body's own factor eliminates the nodes: the
+// meshes are the same, and finding an order takes as long as some factors.
+std::vector<int> order_of(const Dofs& own, const std::vector<int>& own_order, const Dofs& other) {
+  std::vector<int> order;
+  order.reserve(other.free.size());
+  std::vector<bool> listed(static_cast<std::size_t>(other.n / 3), false);
+  const auto list = [&](int node) {
+    if (listed[static_cast<std::size_t>(node)]) return;
+    listed[static_cast<std::size_t>(node)] = true;
+    for (int dof = 3 * node; dof < 3 * node + 3; ++dof)
+      if (other.equation[dof] >= 0) order.push_back(other.equation[dof]);
+  };
+  for (const int row : own_order) list(own.free[row] / 3);
+  for (int node = 0; node < other.n / 3; ++node) list(node);
+  return order;
+}
+
 }  // namespace
 
 // Contact in the tangent itself: it is positive definite, or its negative pivots are counted.
@@ -212,8 +229,8 @@ std::vector<double> TangentSigns::constrained_tangent(OtherTangent& other) {
   return other.K;
 }
 
-Signature TangentSigns::signature_under(std::span<OtherTangent> others,
-                                        std::vector<std::unique_ptr<LinearSolver>>& solvers) {
+std::vector<bool> TangentSigns::factorize_under(
+    std::span<OtherTangent> others, std::vector<std::unique_ptr<LinearSolver>>& solvers) {
   const std::vector<NodeContact> contacts = node_contacts(state_);
   {
     const Stopwatch watch(state_.cost.assembly);
@@ -221,18 +238,40 @@ Signature TangentSigns::signature_under(std::span<OtherTangent> others,
     body_.assemble_under(now_.u, others);
   }
   const Stopwatch watch(state_.cost.factor);
+  std::vector<bool> positive;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    OtherTangent& other = others[i];
+    if (other.pattern.n == 0) {
+      positive.push_back(true);
+      continue;
+    }
+    add_contacts(contacts, other.dofs, other.pattern, other.K);
+    if (!solvers[i]) {
+      LinearSolver::Order order(
+          order_of(body_.dofs(), factors_.factor.linear().order(), other.dofs));
+      solvers[i] =
+          std::make_unique<LinearSolver>(other.pattern, std::move(order), state_.options.threads);
+    }
+    positive.push_back(solvers[i]->factorize(other.K));
+  }
+  return positive;
+}
+
+bool TangentSigns::all_positive_under(std::span<OtherTangent> others,
+                                      std::vector<std::unique_ptr<LinearSolver>>& solvers) {
+  const std::vector<bool> positive = factorize_under(others, solvers);
+  return std::find(positive.begin(), positive.end(), false) == positive.end();
+}
+
+Signature TangentSigns::signature_under(std::span<OtherTangent> others,
+                                        std::vector<std::unique_ptr<LinearSolver>>& solvers) {
+  const std::vector<bool> positive = factorize_under(others, solvers);
+  const Stopwatch watch(state_.cost.factor);
   Signature sum;
   bool singular = false;
   for (std::size_t i = 0; i < others.size(); ++i) {
-    OtherTangent& other = others[i];
-    if (other.pattern.n == 0) continue;
-    add_contacts(contacts, other.dofs, other.pattern, other.K);
-    if (!solvers[i]) {
-      solvers[i] =
-          std::make_unique<LinearSolver>(other.pattern, std::vector<int>{}, state_.options.threads);
-    }
-    if (solvers[i]->factorize(other.K)) continue;
-    const int negative = solvers[i]->negative_pivots(other.K);
+    if (positive[i]) continue;
+    const int negative = solvers[i]->negative_pivots(others[i].K);
     if (negative < 0) {
       singular = true;
     } else {

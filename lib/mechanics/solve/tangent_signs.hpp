@@ -52,12 +52,18 @@ class TangentSigns {
   // them: one factorization each, by the solvers that are kept for the next state.
   Signature signature_under(std::span<OtherTangent> others,
                             std::vector<std::unique_ptr<LinearSolver>>& solvers);
+  // Whether all of them are positive definite: no eigenvalues are counted.
+  bool all_positive_under(std::span<OtherTangent> others,
+                          std::vector<std::unique_ptr<LinearSolver>>& solvers);
   // The tangent of which signature() counts the negative eigenvalues, at the accepted state:
   // contacts as stiff springs. For bodies whose tangent has a factor.
   std::vector<double> constrained_tangent();
   std::vector<double> constrained_tangent(OtherTangent& other);
 
  private:
+  // Assembles them and factorizes one after the other: true of those that are positive definite.
+  std::vector<bool> factorize_under(std::span<OtherTangent> others,
+                                    std::vector<std::unique_ptr<LinearSolver>>& solvers);
   Signature signature_with_contact();
   Signature signs_on_candidates(MatX S, const std::vector<NodeContact>& contacts) const;
   int held_by_volumes(int negative);
