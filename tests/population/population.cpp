@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -131,6 +132,34 @@ TEST_CASE("a synthetic population lies inside the intervals that are found") {
     CHECK(std::exp(mean) == near(value(table, "a1", "population_median"), 0.03));
     CHECK(std::sqrt(square - mean * mean) == near(std::sqrt(population.scatter(0, 0)), 0.06));
   }
+}
+
+TEST_CASE("a number that specimens share is the same in all who are drawn and predicted") {
+  const PopulationOutcome found = outcome_of(
+      synthetic("specimens: {table: ../../data/synthetic_population_specimens.csv, "
+                "data: ../../data/synthetic_population.csv, where: {specimen: \"{id}\"}, "
+                "split: test, shared: [matrix.neo_hooke.a1], people: 20}\n"));
+  MaterialFile file;
+  file.material = found.median;
+  file.fit = found.record;
+  double least = 1;
+  double largest = 0;
+  for (int i = 1; i <= 20; ++i) {
+    const std::vector<Summary> values = sample_of(file, i).values;
+    CHECK(values.at(0).value ==
+          near(value(found.record.tables.front(), "a1", "population_median"), 1e-12));
+    least = std::min(least, values.at(1).value);
+    largest = std::max(largest, values.at(1).value);
+  }
+  CHECK(least > 0);
+  CHECK(largest > 2 * least);
+  for (const auto& [name, text] : found.files) {
+    if (name != "prediction.csv") continue;
+    CHECK(!contains(text, "nan"));
+  }
+  CHECK(std::ranges::any_of(found.lines, [](const std::string& line) {
+    return contains(line, "a1  median") && contains(line, "the same in all specimens");
+  }));
 }
 
 TEST_CASE("nlme of R finds the same population") {

@@ -68,8 +68,11 @@ VecX symmetric_eigenvalues(const MatX& A) {
 
 MatX covariance_root(const MatX& C) {
   const VecX size = C.diagonal().cwiseSqrt();
-  const SymmetricEigen scaled =
-      symmetric_eigen(size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal());
+  // numbers without a variance, such as those that all specimens share, have a row of zeros
+  VecX inverse = VecX::Zero(size.size());
+  for (Eigen::Index i = 0; i < size.size(); ++i)
+    if (size[i] > 0) inverse[i] = 1 / size[i];
+  const SymmetricEigen scaled = symmetric_eigen(inverse.asDiagonal() * C * inverse.asDiagonal());
   return size.asDiagonal() * scaled.vectors * scaled.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 

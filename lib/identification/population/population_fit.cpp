@@ -507,9 +507,10 @@ MixedResult estimate(Population& all, const MixedState& start, NoiseModel& noise
     const MixedState& from = best.converged ? static_cast<const MixedState&>(best) : start;
     MixedResult one = all.estimate(from, kind, all_columns(all));
     if (say) {
-      say(fmt::format("{} noise: {} after {} rounds, AIC {:.1f}",
-                      names(kind)[static_cast<std::size_t>(kind)],
-                      one.converged ? "converged" : one.why, one.rounds, akaike(one)));
+      std::string end = one.why;
+      if (one.converged) end = fmt::format("converged after {} rounds", one.rounds);
+      say(fmt::format("{} noise: {}, AIC {:.1f}", names(kind)[static_cast<std::size_t>(kind)], end,
+                      akaike(one)));
     }
     if (!one.converged && best.why.empty()) best.why = one.why;
     if (!one.converged) continue;
@@ -869,12 +870,16 @@ void say_result(const Population& all, const First& first, const MixedResult& re
     const NumberSummary s = summary_of(all, result, j);
     std::string unit;
     if (all.units_[at] != unit::none) unit = " " + all.units_[at];
+    std::string scatter = "the same in all specimens";
+    if (all.varies_[at])
+      scatter = fmt::format(
+          "between specimens {:.1f} % ({:.1f} to {:.1f}), a new one {:.4g} to {:.4g}", 100 * s.cv,
+          100 * s.of_cv.low, 100 * s.of_cv.high, s.of_new.low, s.of_new.high);
     outcome.lines.push_back(fmt::format(
-        "{:>10}  median {:.4g}{} (95 %: {:.4g} to {:.4g}), between specimens {:.1f} % ({:.1f} to "
-        "{:.1f}), a new one {:.4g} to {:.4g}; average of fits {:.4g}, fit of the mean curve {:.4g}",
-        all.names_[at], s.median, unit, s.of_median.low, s.of_median.high, 100 * s.cv,
-        100 * s.of_cv.low, 100 * s.of_cv.high, s.of_new.low, s.of_new.high, first.average[j],
-        first.of_mean_curve[j]));
+        "{:>10}  median {:.4g}{} (95 %: {:.4g} to {:.4g}), {}; average of fits {:.4g}, fit of the "
+        "mean curve {:.4g}",
+        all.names_[at], s.median, unit, s.of_median.low, s.of_median.high, scatter,
+        first.average[j], first.of_mean_curve[j]));
     if (s.shrinkage > 0.3)
       outcome.warnings.push_back(fmt::format(
           "{} is shrunk by {:.0f} %: the tests of one specimen say little of it, its estimates lean "
@@ -945,11 +950,12 @@ PopulationOutcome fit_population(const FitConfig& config,
   NoiseModel noise;
   const MixedResult result = estimate(all, first.state, noise, say);
   if (!result.converged) {
-    throw Failure(
-        Exit::not_converged,
-        Error{at("specimens"), "specimens", result.why, "",
-              "name parameters that the tests hardly know under `shared`, or leave them out of "
-              "`parameters`; scatter: diagonal has fewer numbers"});
+    std::string cure =
+        "name parameters that the tests hardly know under `shared`, or leave them out of "
+        "`parameters`; scatter: diagonal has fewer numbers";
+    if (!config.specimens->shared.empty())
+      cure += "; a number under `shared` that differs between specimens distorts the others";
+    throw Failure(Exit::not_converged, Error{at("specimens"), "specimens", result.why, "", cure});
   }
   PopulationOutcome outcome;
   outcome.median = with_parameters(all.individuals_.front().problem,
