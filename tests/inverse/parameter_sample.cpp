@@ -4,10 +4,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "identification/inverse/forward_run.hpp"
 #include "identification/inverse/uncertainty.hpp"
+#include "scene/model/solve_config_io.hpp"
 #include "support/laws.hpp"
+#include "support/near.hpp"
 
 using namespace langer;
 
@@ -103,4 +107,122 @@ TEST_CASE(
         1e-12 * known.covariance.norm());
   // and a number that follows a parameter follows it from person to person
   CHECK(known.keys.size() == 3);
+}
+
+namespace {
+
+// Yeoh's law of a population: a1 and a2 scatter by 30 and 40 %, a3 is shared and known to 10 %.
+MaterialFile population_of_skin() {
+  MaterialFile file;
+  file.material.matrix = {Yeoh{0.012, 0.03, 0.01}};
+  file.material.volume = QuadraticVolume{1e-2};
+  FitRecord fit;
+  fit.parameters = {{"a1", "MPa", 0.012, 0, 1, 0.001},
+                    {"a2", "MPa", 0.03, 0, 1, 0.002},
+                    {"a3", "MPa", 0.01, 0, 1, 0.001}};
+  fit.covariance = MatX::Zero(3, 3);
+  PopulationRecord population;
+  population.names = {"a1", "a2", "a3"};
+  population.keys = {"matrix.yeoh.a1", "matrix.yeoh.a2", "matrix.yeoh.a3"};
+  population.units = {"MPa", "MPa", "MPa"};
+  population.links = {"log", "log", "log"};
+  population.lower = {0, 0, 0};
+  population.upper = {1, 1, 1};
+  population.median = Vec3(std::log(0.012), std::log(0.03), std::log(0.01));
+  population.scatter = MatX::Zero(3, 3);
+  population.scatter.topLeftCorner(2, 2) << 0.09, 0.06, 0.06, 0.16;
+  population.median_covariance = Vec3(0.003, 0.005, 0.01).asDiagonal();
+  fit.population = population;
+  file.fit = fit;
+  return file;
+}
+
+// The force of a section of skin under a sphere; with derivatives where keys are given.
+ForwardPath pressed(const Material& law, const std::vector<std::string>& keys) {
+  auto loaded = read_config<SolveConfig>(parse_yaml(
+      "mesh: {geometry: {section: {of: axisymmetric, size: [6, 3], divisions: [10, 4], centre: {edge: 0.3, within: 1.5}}}}\n"
+      "supports: [{on: bottom, hold: [x, y]}]\n"
+      "contacts: {sphere: {on: top, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}},\n"
+      "  motion: [{t: 1, to: [0, -0.8, 0]}]}}\n"
+      "stability: off\npath: {steps: 5}\n",
+      "solve.yaml"));
+  ForwardRun run(loaded.config, loaded.where, 0);
+  run.observe({Observation{}}, {});
+  return run.solve({.law = law, .slopes = keys});
+}
+
+}  // namespace
+
+TEST_CASE("forces of specimens that are drawn lie in the interval that their scatter foretells") {
+  MaterialFile file = population_of_skin();
+  const ParameterKnowledge known = knowledge_of(file);
+  REQUIRE(known.specimens.rows() > 0);
+  // the median of a number that is shared is not known either
+  REQUIRE(known.names == std::vector<std::string>{"a1", "a2", "a3"});
+  CHECK(std::sqrt(known.covariance(2, 2)) == near(0.1 * 0.01, 1e-9));
+
+  // the scatter alone, which is what specimens are drawn from
+  file.fit->population->median_covariance.setZero();
+  const ParameterKnowledge scatter = knowledge_of(file);
+  REQUIRE(scatter.keys == std::vector<std::string>{"matrix.yeoh.a1", "matrix.yeoh.a2"});
+  const ForwardPath median = pressed(file.material, scatter.keys);
+  REQUIRE(median.complete);
+  const Eigen::Index last = median.values.rows() - 1;
+  const double force = median.values(last, 0);
+  VecX g(2);
+  for (Eigen::Index i = 0; i < 2; ++i) g[i] = median.slopes[static_cast<std::size_t>(i)](last, 0);
+  const ForceUncertainty by_derivatives = uncertainty_of(scatter, force, g);
+  REQUIRE(by_derivatives.specimens);
+  const auto [low, high] = *by_derivatives.specimens;
+
+  constexpr int n = 300;
+  int below = 0;
+  int above = 0;
+  int below_symmetric = 0;  // of force -+ 1.96 deviations
+  int above_symmetric = 0;
+  VecX logarithm(n);
+  for (int k = 1; k <= n; ++k) {
+    const ForwardPath path = pressed(sample_of(file, k).law, {});
+    REQUIRE_MESSAGE(path.complete, path.why);
+    const double one = path.values(path.values.rows() - 1, 0);
+    logarithm[k - 1] = std::log(one);
+    below += one < low ? 1 : 0;
+    above += one > high ? 1 : 0;
+    below_symmetric += one < force - 1.96 * by_derivatives.deviation ? 1 : 0;
+    above_symmetric += one > force + 1.96 * by_derivatives.deviation ? 1 : 0;
+  }
+  // 7.5 are expected on either side, with a standard deviation of 2.7
+  CHECK(below <= 15);
+  CHECK(above <= 15);
+  CHECK(below >= 1);
+  CHECK(above >= 1);
+  // the symmetric band of a skewed force is too low on both sides
+  CHECK(below_symmetric < below);
+  CHECK(above_symmetric > above + 8);
+  const double mean = logarithm.mean();
+  const double deviation = std::sqrt((logarithm.array() - mean).square().sum() / (n - 1));
+  // the standard error of a deviation of 300 values is 4 %
+  CHECK(deviation == near(by_derivatives.deviation / force, 0.12));
+  MESSAGE(below, " below, ", above, " above, of the symmetric band ", below_symmetric, " and ",
+          above_symmetric, "; deviation of ln F ", deviation, " by samples, ",
+          by_derivatives.deviation / force, " by derivatives");
+}
+
+TEST_CASE("the words of a force name the scatter of specimens, and those of a fit do not") {
+  ForceUncertainty force;
+  force.name = "force";
+  force.value = 10;
+  force.deviation = 3;
+  force.parts = {{"a1", 1}};
+  CHECK(in_words(force, std::nullopt) == "force 10 N +- 30 % (parameters; 10 % if a1 were known)");
+  force.specimens = {6, 19};
+  CHECK(in_words(force, std::nullopt) ==
+        "force 10 N +- 30 % (between specimens; 10 % if a1 were known), 95 % of specimens between "
+        "6 and 19 N");
+  const std::vector<Summary> summary = summary_of({force});
+  REQUIRE(summary.size() == 4);
+  CHECK(summary[1].name == "force_specimens_lower_95");
+  CHECK(summary[1].value == 6);
+  CHECK(summary[2].name == "force_specimens_upper_95");
+  CHECK(summary[2].value == 19);
 }

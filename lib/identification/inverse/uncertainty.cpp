@@ -6,13 +6,35 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/quantile.hpp"
+#include "core/base/random.hpp"
 #include "core/base/text.hpp"
+#include "core/tensor/dense.hpp"
 #include "identification/population/link.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
 
 namespace {
+
+Link link_of(const PopulationRecord& population, std::size_t at) {
+  Link link;
+  link.lower = population.lower[at];
+  link.upper = population.upper[at];
+  if (population.links[at] == "log") link.kind = LinkKind::log;
+  if (population.links[at] == "logit") link.kind = LinkKind::logit;
+  return link;
+}
+
+// The place of each fitted parameter in a population; -1 where it is none of it.
+std::vector<Eigen::Index> places_in(const PopulationRecord& population, const FitRecord& fit) {
+  std::vector<Eigen::Index> places;
+  for (const FittedParameter& parameter : fit.parameters) {
+    const auto found = std::ranges::find(population.names, parameter.name);
+    places.push_back(found == population.names.end() ? -1 : found - population.names.begin());
+  }
+  return places;
+}
 
 // The covariance of a specimen that was not tested: scatter of the population and error of its
 // median, to first order on the scale of the numbers themselves.
@@ -21,26 +43,40 @@ MatX scatter_of(const PopulationRecord& population, const FitRecord& fit) {
   MatX covariance = MatX::Constant(n, n, std::nan(""));
   const MatX of_phi = population.scatter + population.median_covariance;
   VecX slope(of_phi.rows());
-  for (Eigen::Index j = 0; j < slope.size(); ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    Link link;
-    link.lower = population.lower[at];
-    link.upper = population.upper[at];
-    if (population.links[at] == "log") link.kind = LinkKind::log;
-    if (population.links[at] == "logit") link.kind = LinkKind::logit;
-    slope[j] = link.slope(population.median[j]);
-  }
-  for (std::size_t a = 0; a < fit.parameters.size(); ++a)
-    for (std::size_t b = 0; b < fit.parameters.size(); ++b) {
-      const auto i = std::ranges::find(population.names, fit.parameters[a].name);
-      const auto j = std::ranges::find(population.names, fit.parameters[b].name);
-      if (i == population.names.end() || j == population.names.end()) continue;
-      const Eigen::Index row = i - population.names.begin();
-      const Eigen::Index column = j - population.names.begin();
-      covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
-          slope[row] * of_phi(row, column) * slope[column];
+  for (Eigen::Index j = 0; j < slope.size(); ++j)
+    slope[j] = link_of(population, static_cast<std::size_t>(j)).slope(population.median[j]);
+  const std::vector<Eigen::Index> places = places_in(population, fit);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const Eigen::Index i = places[static_cast<std::size_t>(a)];
+      const Eigen::Index j = places[static_cast<std::size_t>(b)];
+      if (i < 0 || j < 0) continue;
+      covariance(a, b) = slope[i] * of_phi(i, j) * slope[j];
     }
   return covariance;
+}
+
+// Specimens that are drawn from the same distribution, without the linearisation: one row each, its
+// numbers less those of the median, for the parameters `kept`.
+MatX draw_specimens(const PopulationRecord& population, const FitRecord& fit,
+                    const std::vector<Eigen::Index>& kept) {
+  constexpr Eigen::Index n = 4000;
+  const MatX root = covariance_root(population.scatter + population.median_covariance);
+  const std::vector<Eigen::Index> places = places_in(population, fit);
+  MatX drawn(n, static_cast<Eigen::Index>(kept.size()));
+  VecX z(population.median.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Random random(2, static_cast<std::uint64_t>(k));
+    for (double& one : z) one = random.normal();
+    const VecX phi = population.median + root * z;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Eigen::Index j = places[static_cast<std::size_t>(kept[i])];
+      const Link link = link_of(population, static_cast<std::size_t>(j));
+      drawn(k, static_cast<Eigen::Index>(i)) =
+          link.backward(phi[j]) - link.backward(population.median[j]);
+    }
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -71,6 +107,8 @@ ParameterKnowledge knowledge_of(const MaterialFile& file) {
     for (Eigen::Index j = 0; j < n; ++j)
       known.covariance(i, j) =
           uncertain(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
+  if (file.fit->population && n > 0)
+    known.specimens = draw_specimens(*file.fit->population, *file.fit, kept);
   const std::vector<Tie> ties = resolved(file.fit->ties).ties;
   std::vector<VecX> rows;
   for (const MaterialParameter& p : numbers) {
@@ -111,14 +149,28 @@ ParameterKnowledge prepare_uncertainty(SolveConfig& config, const std::string& m
   return known;
 }
 
+namespace {
+
+// What 95 % of the specimens of a population have, by forces that are linear in their numbers.
+std::array<double, 2> specimen_interval(const MatX& specimens, double value, const VecX& g) {
+  const VecX forces = specimens * g;
+  std::vector<double> sorted(forces.begin(), forces.end());
+  std::ranges::sort(sorted);
+  return {value + quantile(sorted, 0.025), value + quantile(sorted, 0.975)};
+}
+
+}  // namespace
+
 // The standard deviation by linear propagation, sqrt(g^T C g). If parameter j were known exactly
 // the variance would be lower by (C g)_j^2 / C_jj (conditional normal distribution).
-ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& by_key) {
+ForceUncertainty uncertainty_of(const ParameterKnowledge& known, double value, const VecX& by_key) {
   const VecX g = known.follow.transpose() * by_key;
   const VecX Cg = known.covariance * g;
   const double variance = std::max(0.0, g.dot(Cg));
   ForceUncertainty out;
+  out.value = value;
   out.deviation = std::sqrt(variance);
+  if (known.specimens.rows() > 0) out.specimens = specimen_interval(known.specimens, value, g);
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
     out.parts.push_back(
@@ -150,9 +202,8 @@ std::vector<ForceUncertainty> Uncertainty::of(const StepRecord& whole) const {
   const auto add = [&](const std::string& name, double value,
                        const std::function<double(const SceneParameter&)>& derivative) {
     ForceUncertainty& force = out.emplace_back(
-        uncertainty_of(known_, derivatives(sensitivity_.parameters(), known_, derivative)));
+        uncertainty_of(known_, value, derivatives(sensitivity_.parameters(), known_, derivative)));
     force.name = name;
-    force.value = value;
   };
   const auto scalar = [&](const std::string& quantity) {
     return [&whole, quantity](const SceneParameter& p) {
@@ -209,6 +260,10 @@ std::vector<Summary> summary_of(const std::vector<ForceUncertainty>& forces) {
   std::vector<Summary> out;
   for (const ForceUncertainty& force : forces) {
     out.push_back({force.name + "_deviation", force.deviation, "N"});
+    if (force.specimens) {
+      out.push_back({force.name + "_specimens_lower_95", (*force.specimens)[0], "N"});
+      out.push_back({force.name + "_specimens_upper_95", (*force.specimens)[1], "N"});
+    }
     for (const auto& part : force.parts)
       out.push_back({force.name + "_deviation_without_" + part.name, part.without, "N"});
   }
@@ -223,7 +278,9 @@ std::string in_words(const ForceUncertainty& force, std::optional<double> cells)
   };
   std::string words = fmt::format("{} {:.4g} N", force.name, force.value);
   if (cells) words += fmt::format(" +- {} (cells)", percent(*cells));
-  words += fmt::format(" +- {} (parameters", percent(force.deviation));
+  const char* source = "parameters";
+  if (force.specimens) source = "between specimens";
+  words += fmt::format(" +- {} ({}", percent(force.deviation), source);
   // at most three parameters, and only those that reduce the deviation by a tenth
   std::string reductions;
   int listed = 0;
@@ -232,7 +289,11 @@ std::string in_words(const ForceUncertainty& force, std::optional<double> cells)
       append(reductions, ", ",
              fmt::format("{} if {} were known", percent(part.without), part.name));
   if (!reductions.empty()) words += "; " + reductions;
-  return words + ")";
+  words += ")";
+  if (force.specimens)
+    words += fmt::format(", 95 % of specimens between {:.3g} and {:.3g} N", (*force.specimens)[0],
+                         (*force.specimens)[1]);
+  return words;
 }
 
 void report_forces(const Voice& voice, const ParameterKnowledge& known,

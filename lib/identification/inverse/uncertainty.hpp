@@ -2,11 +2,16 @@
 //   variance of a force   g^T C g     g: its derivatives by the parameters (sensitivity.hpp),
 //                                     C: their covariance in material.h5
 //   without p_j           what would be left if p_j were known exactly: C conditioned on p_j
+// Of a population of specimens C is the scatter between them and the error of its median: the
+// deviation is that of a specimen that was not tested. Moduli scatter by a factor, so forces are
+// skewed: their 95 % are those of specimens that are drawn, with forces linear in the numbers,
+//   F_k = F + g^T (p_k - p)
 // First order: valid while a force is linear over the uncertainty of the parameters; langer-sample
 // checks it by runs. Tied numbers follow their parameter. Angles of symmetry, parameters on a bound
 // and undetermined ones have no variance in C: they are left out, and the run says so.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +30,9 @@ struct ParameterKnowledge {
   MatX follow;                        // (keys, names): d number / d parameter
   MatX covariance;                    // (names, names)
   std::vector<std::string> left_out;  // names
+  // Of a population, one row for each specimen that is drawn: its numbers less those of the median
+  // (specimens, names). Empty: of the error of a fit.
+  MatX specimens;
 };
 ParameterKnowledge knowledge_of(const MaterialFile& file);
 // Where config asks for `uncertainty`: of the material's file (empty: there is none). The
@@ -42,10 +50,11 @@ struct ForceUncertainty {
     double without = 0;  // the deviation that would be left if it were known [N]
   };
   std::vector<Part> parts;  // the one that would help most first
+  // of a population: 95 % of specimens have a force between these two [N]
+  std::optional<std::array<double, 2>> specimens;
 };
-
 // g: by key. of names, as ForceUncertainty::parts
-ForceUncertainty uncertainty_of(const ParameterKnowledge& known, const VecX& g);
+ForceUncertainty uncertainty_of(const ParameterKnowledge& known, double value, const VecX& g);
 
 class Uncertainty {
  public:
@@ -70,7 +79,8 @@ void report_forces(const Voice& voice, const ParameterKnowledge& known,
                    const std::vector<ForceUncertainty>& forces,
                    const std::vector<ErrorEstimate>& errors);
 // "force 9.44 N +- 0.9 % (cells) +- 24 % (parameters; 5.1 % if c1 were known, 8 % if a1 were
-// known)"; cells: [N]
+// known)"; of a population "+- 24 % (between specimens; ...), 95 % of specimens between 5.9 and
+// 15 N"; cells: [N]
 std::string in_words(const ForceUncertainty& force, std::optional<double> cells);
 
 }  // namespace langer
