@@ -264,7 +264,16 @@ TEST_CASE(
         {"mesh.bodies[0].thickness", "mesh.bodies[1].thickness"}, 1e-5);
   check(block("hex8", "[6, 2, 6]") + "material: " + fat + ball(0.3) + four + "symmetry: quarter\n",
         {radius, height}, 1e-3);
-  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four, {radius}, 1e-5);
+  check(block("hex27", "[4, 2, 4]") + "material: " + skin + ball(0) + four, {radius, height}, 1e-5);
+  // almost incompressible: what a step of the thickness does to the pressures is large
+  const std::string wet =
+      "{matrix: {yeoh: {a1: 0.05, a2: 0.05}}, volume: {quadratic: {d: 1.0e-6}}}\n";
+  check(block("hex8", "[4, 2, 4]") + "material: " + wet + ball(0) + four, {height}, 1e-5);
+  check(block("hex27", "[4, 4, 4]", layers) + "material: " + skin +
+            "materials: {fat: {material: " + fat + "}}\n" + ball(0) + four,
+        {"mesh.bodies[0].thickness", "mesh.bodies[1].thickness"}, 1e-5);
+  check(block("hex27", "[4, 2, 4]") + "material: " + fat + ball(0.3) + four + "symmetry: quarter\n",
+        {radius, height}, 1e-3);
   check(
       "mesh:\n  geometry: {block: {origin: [-4, 0, -4], size: [8, 3, 8], divisions: [8, 2, 8]}}\n"
       "supports: [{on: bottom, hold: [x, y, z]}]\nmaterial: " +

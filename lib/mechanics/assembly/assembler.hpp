@@ -104,6 +104,8 @@ class Assembler {
   VecX dilatation_residual() const { return pressures_.dilatation_residual(); }
   using VolumetricPart = PressureField::VolumetricPart;
   VolumetricPart volumetric_part() const { return pressures_.volumetric_part(); }
+  // Pressures and bubble moduli of the next assembly, until others follow from displacements.
+  void set_pressures(const PressureField::State& state) { pressures_.restore(state); }
 
   // Other parameters of the same materials, and directions of as many families, from the next
   // assembly on. Pressures of the tangent stay until pressures_from().
@@ -119,6 +121,9 @@ class Assembler {
   // (3 n), for v (3 n) that moves no prescribed unknown; empty if there is nothing. W: the part of
   // the bubble modulus in the change of W(), f_int . v.
   VecX nonsymmetric_part(const VecX& u, const VecX& v, double* W = nullptr);
+  // Derivative of f_int and W at the u assembled last where the bubble moduli change, by element
+  // [MPa].
+  Forces bubble_change(const VecX& u, const std::vector<double>& change);
   // Forces of pressures that change when the body at u moves by du, without what K() has: (3 n)
   // [N].
   VecX skew_pressures(const VecX& u, const VecX& du) const;

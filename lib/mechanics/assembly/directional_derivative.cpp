@@ -35,13 +35,20 @@ VecX Assembler::nonsymmetric_part(const VecX& u, const VecX& v, double* W) {
   return VecX(out - skew_pressures(u, v));
 }
 
-// Forces and energy are linear in the bubble moduli: one assembly with changed moduli gives the
-// derivative. The change is scaled to the size of the moduli, so that rounding stays small.
 VecX Assembler::bubble_part(const VecX& u, const VecX& v, double* W_change) {
   const std::vector<double> change = pressures_.bubble_modulus_change(v);
   if (change.empty()) return VecX::Zero(body_.dofs().n);
+  const Forces out = bubble_change(u, change);
+  if (W_change) *W_change = out.W;
+  return out.f;
+}
+
+// Forces and energy are linear in the bubble moduli: one assembly with changed moduli gives the
+// derivative. The change is scaled to the size of the moduli, so that rounding stays small.
+Assembler::Forces Assembler::bubble_change(const VecX& u, const std::vector<double>& change) {
   double largest = 0;
   for (double one : change) largest = std::max(largest, std::abs(one));
+  if (largest == 0) return {VecX::Zero(body_.dofs().n), 0};
   const PressureField::State state = pressures_.state();
   double size = 0;
   for (double modulus : state.bubble_modulus) size = std::max(size, modulus);
@@ -49,8 +56,8 @@ VecX Assembler::bubble_part(const VecX& u, const VecX& v, double* W_change) {
 
   pressures_.add_to_bubble_moduli(size / largest, change);
   assemble(u, false);
-  const VecX out = largest / size * (sums_.f - sums.f);
-  if (W_change) *W_change = largest / size * (sums_.W - sums.W);
+  const double share = largest / size;
+  const Forces out{share * (sums_.f - sums.f), share * (sums_.W - sums.W)};
 
   pressures_.restore(state);
   sums_ = sums;

@@ -219,9 +219,6 @@ bool SceneParameters::take_thickness(const std::string& key, const SolveConfig& 
     if (is_viscous(material))
       refuse_number(refused, "and a material is viscous", "an elastic material, or another number",
                     "langer-fit finds it by differences of runs");
-  if (scene.formulation == Formulation::linear_dilatation)
-    refuse_number(refused, "and cells are of second order", "hex8, or another number",
-                  "langer-fit finds it by differences of runs");
   if (scene.directions.from_field())
     refuse_number(refused, "and a fibre_field gives directions by places", "another number",
                   "langer-fit finds it by differences of runs");
