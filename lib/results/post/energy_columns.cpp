@@ -40,6 +40,11 @@ Vec3 sum_over_ring(const Mesh& mesh, const Vec3& sum) {
   return sum;
 }
 
+double pull_along(const Vec3& normal, const Vec3& force) {
+  if (normal.isZero(0)) return 0;
+  return std::max(0.0, -force.dot(normal.normalized()));
+}
+
 }  // namespace
 
 double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const Vec3> u,
@@ -54,8 +59,7 @@ double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const
     normal += (r[i].norm() + bonds[i].norm()) * n;
   }
   normal = sum_over_ring(mesh, normal);
-  if (normal.isZero(0)) return 0;
-  return std::max(0.0, -force.dot(normal.normalized()));
+  return pull_along(normal, force);
 }
 
 double pull_force(const std::vector<MortarNode>& nodes, std::span<const Vec3> r,
@@ -67,8 +71,14 @@ double pull_force(const std::vector<MortarNode>& nodes, std::span<const Vec3> r,
     force += r[i] + bonds[i];
     normal += (r[i].norm() + bonds[i].norm()) * node.normal;
   }
-  if (normal.isZero(0)) return 0;
-  return std::max(0.0, -force.dot(normal.normalized()));
+  return pull_along(normal, force);
+}
+
+VecX positions(const Mesh& mesh, const std::vector<Vec3>& u) {
+  VecX x(3 * static_cast<Eigen::Index>(u.size()));
+  for (std::size_t i = 0; i < u.size(); ++i)
+    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.X[i] + u[i];
+  return x;
 }
 
 EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
@@ -84,14 +94,6 @@ EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
 }
 
 namespace {
-
-// The positions of all nodes (3 n).
-VecX positions(const Mesh& mesh, const std::vector<Vec3>& u) {
-  VecX x(3 * static_cast<Eigen::Index>(u.size()));
-  for (std::size_t i = 0; i < u.size(); ++i)
-    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.X[i] + u[i];
-  return x;
-}
 
 // Adds the forces of reactions on both sides of a surface.
 void add_nodal(const std::vector<MortarNode>& nodes, const VecX& x, const std::vector<Vec3>& r,

@@ -43,6 +43,8 @@ double pull_force(const RigidContact& contact, const Mesh& mesh, std::span<const
 // The same of two deformable surfaces: what pulls the non-mortar side towards the other one.
 double pull_force(const std::vector<MortarNode>& nodes, std::span<const Vec3> r,
                   std::span<const Vec3> bonds);
+// of all nodes (3 n), with the displacements u of a record
+VecX positions(const Mesh& mesh, const std::vector<Vec3>& u);
 
 // Adds up energies state by state. The sums of a state also depend on the state after it, because
 // the parabola uses both neighbours, so they are computed at the end.

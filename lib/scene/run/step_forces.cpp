@@ -49,14 +49,6 @@ void count_touching(const Scene& scene, const Mesh& mesh, const StepRecord& whol
   }
 }
 
-// The positions of all nodes (3 n).
-VecX positions_of(const Mesh& mesh, const StepRecord& whole) {
-  VecX x(3 * static_cast<Eigen::Index>(whole.u.size()));
-  for (std::size_t i = 0; i < whole.u.size(); ++i)
-    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = mesh.X[i] + whole.u[i];
-  return x;
-}
-
 // The pull of the bonds of all indenters and surfaces that adhere, the greatest of them, and how
 // many nodes of the front of a section (of a block all) it comes from.
 void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, StepForces& forces) {
@@ -75,7 +67,7 @@ void add_pull(const Scene& scene, const Mesh& mesh, const StepRecord& whole, Ste
   for (const SurfaceContact& surface : scene.surfaces) {
     const ContactRecord& record = whole.contacts.at(surface.name);
     if (record.adhesive.empty()) continue;
-    const auto averages = mortar_nodes(surface, positions_of(mesh, whole));
+    const auto averages = mortar_nodes(surface, positions(mesh, whole.u));
     count(surface.nodes, record, pull_force(averages, record.r, record.adhesive));
   }
   for (const RigidContact& contact : scene.contacts) {
