@@ -8,12 +8,17 @@ set(solve ${BIN}/langer-solve configs/solve/smoke.yaml --mesh mesh.h5 --material
   --set path.first=0.1 --set path.largest=0.1)
 run(0 ${solve} -o whole/solution.h5 --quiet)
 
-# stopped after its fourth step
+# Stopped after its fourth step of ten. A busy machine may look too late, and the run is over: then it is begun again.
 function(stop_early output)
-  file(REMOVE_RECURSE ${folder}/${output})
-  execute_process(COMMAND sh -c "exec \"$@\" 2> said & p=$!
+  foreach(attempt RANGE 30)
+    file(REMOVE_RECURSE ${folder}/${output})
+    execute_process(COMMAND sh -c "exec \"$@\" 2> said & p=$!
 while ! grep -q '^step   4' said && kill -0 $p; do sleep 0.01; done; kill -INT $p; wait $p" sh env --default-signal=INT ${solve} -v -o ${output}/solution.h5
-    WORKING_DIRECTORY ${folder} RESULT_VARIABLE code)
+      WORKING_DIRECTORY ${folder} RESULT_VARIABLE code ERROR_QUIET)
+    if(NOT code EQUAL 0)
+      break()
+    endif()
+  endforeach()
   expect_equal(${code} 130 "exit code after SIGINT")
 endfunction()
 stop_early(kept)
