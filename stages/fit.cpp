@@ -65,8 +65,8 @@ void write_reached(const Job<FitConfig>& job, const FitProblem& problem, const F
 // of an earlier run that found no optimum
 void remove_reached(const Job<FitConfig>& job) {
   std::error_code ignored;
-  std::filesystem::remove(job.side_file("reached.csv"), ignored);
-  std::filesystem::remove(job.side_file("reached_fit.csv"), ignored);
+  for (const char* name : {"reached.csv", "reached_fit.csv", "reached_specimens.csv"})
+    std::filesystem::remove(job.side_file(name), ignored);
 }
 
 // The lines of a study that a reader acts on: what is known least, and the test to make next.
@@ -284,6 +284,14 @@ std::vector<Summary> fit_specimens(const Job<FitConfig>& job) {
   };
   const PopulationOutcome outcome =
       fit_population(job.config, at, [&](const std::string& line) { job.say("{}", line); });
+  if (outcome.no_result) {
+    for (const PopulationFile& file : outcome.files)
+      write_text_file(job.side_file(file.name), file.text);
+    job.say("what the search reached, and the fits of the specimens alone, are in {} and {}",
+            job.side_file(outcome.files.front().name), job.side_file(outcome.files.back().name));
+    throw Failure(Exit::not_converged, *outcome.no_result);
+  }
+  remove_reached(job);
   for (const std::string& line : outcome.lines) job.say("{}", line);
   for (const std::string& line : outcome.warnings) job.warn("{}", line);
   for (const PopulationFile& file : outcome.files)

@@ -243,6 +243,25 @@ TEST_CASE("files of specimens are found by the pattern of their names") {
   CHECK(found.record.parameters[0].value == near(std::cbrt(0.01 * 0.012 * 0.02), 0.02));
 }
 
+TEST_CASE("a search without a population leaves what it reached, and the fits of the specimens") {
+  const fs::path folder = small_study("specimens_without", "id,age\nA,20\nB,30\nC,50\n");
+  // tension of specimens without fibres says nothing of the angle of fibres
+  const FitConfig config = config_of(parse_yaml(
+      "specimens: {table: specimens.csv, data: \"curves/{id}_{test}.csv\"}\n"
+      "law: {matrix: {neo_hooke: {a1: 0.02}}, volume: {quadratic: {d: 1e-6}}, "
+      "fibres: [{hgo: {c1: 0.02, c2: 3}, alpha: 30, kappa: 0}]}\nbounds: admissible\n"
+      "parameters: [{key: matrix.neo_hooke.a1}, {key: \"fibres[0].alpha\"}]\nstarts: 2\n",
+      "fit.yaml", folder.string()));
+  const PopulationOutcome found = outcome_of(config);
+  REQUIRE(found.no_result);
+  CHECK(contains(found.no_result->found, "modes and population still change"));
+  REQUIRE(found.files.size() == 2);
+  CHECK(found.files[0].name == "reached.csv");
+  CHECK(contains(found.files[0].text, "\na1,matrix.neo_hooke.a1,0.013"));
+  CHECK(found.files[1].name == "reached_specimens.csv");
+  CHECK(contains(found.files[1].text, "\nA,1,6,0.0099"));
+}
+
 TEST_CASE("what is wrong with a table of specimens is named at its line") {
   const auto refused = [](const std::string& table, const std::string& more = "") {
     return refusal(small_config(small_study("specimens_bad", table), more));

@@ -512,8 +512,10 @@ MixedResult estimate(Population& all, const MixedState& start, NoiseModel& noise
       say(fmt::format("{} noise: {}, AIC {:.1f}", names(kind)[static_cast<std::size_t>(kind)], end,
                       akaike(one)));
     }
-    if (!one.converged && best.why.empty()) best.why = one.why;
-    if (!one.converged) continue;
+    if (!one.converged) {
+      if (!best.converged && best.why.empty()) best = std::move(one);
+      continue;
+    }
     if (best.converged && !(akaike(one) < akaike(best))) continue;
     best = std::move(one);
     chosen = kind;
@@ -692,6 +694,44 @@ std::string specimen_csv(Population& all, const First& first, const MixedResult&
   return text;
 }
 
+// Empty where a number is not known.
+std::string cell_of(double value) {
+  return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string();
+}
+
+// What a search without a result has reached: the numbers of the population, and the fits of its
+// specimens alone, which need no population.
+std::vector<PopulationFile> what_was_reached(const Population& all, const First& first,
+                                             const MixedResult& reached) {
+  std::string numbers =
+      "parameter,key,reached,lower,upper,deviation_reached,average_of_fits,fit_of_mean_curve\n";
+  const VecX values = all.backward(reached.beta.head(all.numbers()));
+  for (Eigen::Index j = 0; j < all.numbers(); ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    const FreeParameter& free = all.individuals_.front().problem.free[at];
+    numbers += fmt::format("{},{},{:.8g},{},{},{:.8g},{},{:.8g}\n", csv_cell(all.names_[at]),
+                           csv_cell(all.keys_[at]), values[j], free.lower, free.upper,
+                           std::sqrt(reached.omega(j, j)), cell_of(first.average[j]),
+                           first.of_mean_curve[j]);
+  }
+  std::string specimens = "specimen,tests,values";
+  for (std::size_t j = 0; j < all.names_.size(); ++j)
+    specimens += "," + csv_name(all.names_[j] + "_alone", all.units_[j]);
+  specimens += "\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Individual& one = all.individuals_[i];
+    specimens +=
+        fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
+    for (Eigen::Index j = 0; j < all.numbers(); ++j) {
+      specimens += ",";
+      if (first.fits[i].size() > 0) specimens += cell_of(first.fits[i][j]);
+    }
+    specimens += "\n";
+  }
+  const std::vector<std::string> names = reached_files();
+  return {{names[0], numbers}, {names[1], specimens}};
+}
+
 // Effects of covariates, with the likelihood ratio of the model without each.
 void add_effects(Population& all, const MixedResult& result, NoiseKind kind,
                  PopulationOutcome& outcome) {
@@ -734,10 +774,9 @@ void add_effects(Population& all, const MixedResult& result, NoiseKind kind,
       const auto at = static_cast<std::size_t>(effect.number);
       double times = not_known;
       if (all.links_[at].kind == LinkKind::log) times = std::exp(value);
-      text +=
-          fmt::format("{},{},{:.8g},{:.8g},{:.8g},{},{:.6g},{:.4g}\n", csv_cell(effect.name),
-                      all.names_[at], value, value - s.factor * error, value + s.factor * error,
-                      std::isfinite(times) ? fmt::format("{:.8g}", times) : "", ratio, probability);
+      text += fmt::format("{},{},{:.8g},{:.8g},{:.8g},{},{:.6g},{:.4g}\n", csv_cell(effect.name),
+                          all.names_[at], value, value - s.factor * error, value + s.factor * error,
+                          cell_of(times), ratio, probability);
     }
   }
   outcome.files.push_back({"effects.csv", text});
@@ -942,6 +981,8 @@ std::vector<std::string> population_files(const FitConfig& config) {
   return files;
 }
 
+std::vector<std::string> reached_files() { return {"reached.csv", "reached_specimens.csv"}; }
+
 PopulationOutcome fit_population(const FitConfig& config,
                                  const std::function<Place(const std::string&)>& at,
                                  const std::function<void(const std::string&)>& say) {
@@ -949,15 +990,17 @@ PopulationOutcome fit_population(const FitConfig& config,
   const First first = first_estimates(all);
   NoiseModel noise;
   const MixedResult result = estimate(all, first.state, noise, say);
+  PopulationOutcome outcome;
   if (!result.converged) {
     std::string cure =
         "name parameters that the tests hardly know under `shared`, or leave them out of "
         "`parameters`; scatter: diagonal has fewer numbers";
     if (!config.specimens->shared.empty())
       cure += "; a number under `shared` that differs between specimens distorts the others";
-    throw Failure(Exit::not_converged, Error{at("specimens"), "specimens", result.why, "", cure});
+    outcome.no_result = Error{at("specimens"), "specimens", result.why, "", cure};
+    outcome.files = what_was_reached(all, first, result);
+    return outcome;
   }
-  PopulationOutcome outcome;
   outcome.median = with_parameters(all.individuals_.front().problem,
                                    all.backward(result.beta.head(all.numbers())));
   say_result(all, first, result, noise, outcome);

@@ -9,9 +9,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "identification/setup/fit_config.hpp"
 #include "results/store/material_file.hpp"
 
@@ -22,6 +24,8 @@ struct PopulationFile {
 };
 
 struct PopulationOutcome {
+  // Why no population was found. Then there are only `files`, which say what the search reached.
+  std::optional<Error> no_result;
   Material median;   // the law of the median specimen
   FitRecord record;  // parameters of the population, its scatter, the table `population`
   std::vector<PopulationFile> files;
@@ -30,6 +34,9 @@ struct PopulationOutcome {
 
 // names of the files that a fit of a population writes
 std::vector<std::string> population_files(const FitConfig& config);
+
+// names of those of a search without a result
+std::vector<std::string> reached_files();
 
 // Throws Failure(config), Failure(input), Failure(not_converged). at: place of a key.
 PopulationOutcome fit_population(const FitConfig& config,
