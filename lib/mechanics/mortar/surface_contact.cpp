@@ -21,6 +21,10 @@ VecX positions(const std::vector<Vec3>& X, const VecX& u) {
   return x;
 }
 
+VecX positions(const std::vector<Vec3>& X) {
+  return positions(X, VecX::Zero(3 * static_cast<Eigen::Index>(X.size())));
+}
+
 namespace {
 
 QuadNodes corners(const Mesh& mesh, const Facet& facet) {

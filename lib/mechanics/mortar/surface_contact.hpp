@@ -42,6 +42,7 @@ inline Vec3 position(const VecX& x, int node) {
 
 // of all nodes (3 n), from those at rest and displacements (3 n)
 VecX positions(const std::vector<Vec3>& X, const VecX& u);
+VecX positions(const std::vector<Vec3>& X);  // at rest
 
 struct SurfaceContact {
   std::string name;

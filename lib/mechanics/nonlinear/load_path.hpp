@@ -8,6 +8,7 @@
 // with the same ones.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -50,9 +51,8 @@ struct LoadPathOptions {
     if (steps) return 1.0 / *steps;
     return largest;
   }
-  double shortest_with_a_jump() const {
-    return largest_increment() / 32;
-  }  // of what adheres (solve/release.hpp)
+  // Of what adheres (solve/release.hpp): a jump is followed before the path gives up.
+  double shortest_with_a_jump() const { return std::max(largest_increment() / 32, 2 * smallest); }
   // Where the surface passes an edge of an indenter within an increment longer than this, the
   // increment is halved (solve/edge_slip.hpp). Past a sharp edge every increment has to pass it.
   double shortest_past_an_edge() const { return largest_increment() / 64; }

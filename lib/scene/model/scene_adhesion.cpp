@@ -80,8 +80,7 @@ void take_adhesion(SurfaceContact& surface, const ContactConfig& contact, const 
   surface.adhesion = contact.adhesion;
   const VecX areas = nodal_areas(mesh, own);
   for (int node : surface.nodes) surface.area.push_back(areas[node]);
-  const VecX none = VecX::Zero(3 * static_cast<Eigen::Index>(mesh.n_nodes()));
-  for (const MortarNode& node : mortar_nodes(surface, positions(mesh.X, none)))
+  for (const MortarNode& node : mortar_nodes(surface, positions(mesh.X)))
     surface.area[static_cast<std::size_t>(node.candidate)] = node.area;
 }
 

@@ -171,11 +171,8 @@ std::vector<Facet> facets_of(const Mesh& mesh, const std::string& set, const std
 // Nodes of the non-mortar side that are inside the other body by more than 1 % of a facet.
 void refuse_overlap(const SurfaceContact& surface, const Mesh& mesh, const std::string& key,
                     const Find& where, std::vector<Error>& errors) {
-  VecX x(3 * static_cast<Eigen::Index>(mesh.n_nodes()));
-  for (int i = 0; i < mesh.n_nodes(); ++i)
-    x.segment<3>(3 * i) = mesh.X[static_cast<std::size_t>(i)];
   const MortarNode* deepest = nullptr;
-  const auto nodes = mortar_nodes(surface, x);
+  const auto nodes = mortar_nodes(surface, positions(mesh.X));
   for (const MortarNode& node : nodes)
     if (node.gap() < -0.01 * std::sqrt(node.area) && (!deepest || node.gap() < deepest->gap()))
       deepest = &node;
@@ -211,9 +208,7 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
     const SurfaceContact* smooth = nullptr;
     bool rough = false;
     Vec3 across = Vec3::Zero();
-    VecX x(3 * static_cast<Eigen::Index>(mesh.n_nodes()));
-    for (int i = 0; i < mesh.n_nodes(); ++i)
-      x.segment<3>(3 * i) = mesh.X[static_cast<std::size_t>(i)];
+    const VecX x = positions(mesh.X);
     for (const SurfaceContact& surface : scene.surfaces) {
       if (surface.touches_itself()) continue;  // holds nothing
       const bool touches =

@@ -207,9 +207,7 @@ RunEnd Run::follow(const RunListener& listener) {
     if (increment.bonds().none()) {
       report = solve();
     } else {
-      // a jump is followed before the path gives up
-      const double shortest = std::max(path.shortest_with_a_jump(), 2 * path.smallest);
-      report = adhesive_equilibrium(increment, t, shortest, solve, jumping);
+      report = adhesive_equilibrium(increment, t, path.shortest_with_a_jump(), solve, jumping);
     }
     if (!report.converged() && too_slow && signal == 0) {
       report.outcome = Outcome::not_converged;
