@@ -204,8 +204,10 @@ TEST_CASE("the reaction of a clamped body has an error bar that holds, and tells
   const char *const pulled = "{x: 1.2, y: 0, z: 0}", *const sheared = "{x: 0, y: 0.8, z: 0}",
                     *const pressed = "{x: -0.8, y: 0, z: 0}";
   using Case = std::pair<const char*, std::string>;
-  for (const auto& [load, law] :
+  for (const Case& one :
        {Case{pulled, isotropic}, {pulled, fibrous}, {sheared, fibrous}, {pressed, isotropic}}) {
+    const char* load = one.first;
+    const std::string& law = one.second;
     const auto scene = [&](const char* cells, int n) {
       return between_clamped_faces(load, law, cells, n);
     };

@@ -151,7 +151,8 @@ double area_of(const Mesh& mesh, const std::string& set) {
 
 TEST_CASE("other supports: a pressed patch has its area on every mesh of an estimate") {
   for (const auto& [from, to] : {std::pair{3.0, 7.0}, {2.5, 7.2}}) {
-    CAPTURE(from);
+    const auto shown = from;
+    CAPTURE(shown);
     const SolveConfig asked = test::config_of(pressed_part(from, to) + "accuracy: 5%\n");
     SolveConfig config = asked;
     REQUIRE(choose_accuracy(config, config.material));

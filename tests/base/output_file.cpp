@@ -75,7 +75,8 @@ TEST_CASE("links, folders and pipes are refused and stay as they are") {
         {"dangling", "is a link to nowhere.txt"},
         {"folder", "is a folder"},
         {"pipe", "is no plain file"}}) {
-    CAPTURE(name);
+    const auto shown = name;
+    CAPTURE(shown);
     const std::string path = (folder / name).string();
     CHECK(holds(refusal([&] { create_file(path); }), found));
     if (name == "folder") continue;

@@ -216,9 +216,10 @@ TEST_CASE(
   changes[8] = {{0.2, {0.1, 0.2, 0.3}, {-0.3, 0.2, 1}, {0.1, 20, -10}, 0.05}, 0.7};
   for (const Case& c : {loosening, at_once, holding, healing, pressed})
     for (auto& [change, radius] : changes) {
+      const auto number = &change - &changes[0].first;
       CAPTURE(c.law.work);
       CAPTURE(c.v[1]);
-      CAPTURE(&change - &changes[0].first);
+      CAPTURE(number);
       const double h = 1e-6;
       const ShapePoint more = ball_at(c.radius + h * radius, c.v);
       const ShapePoint less = ball_at(c.radius - h * radius, c.v);

@@ -67,7 +67,8 @@ TEST_CASE("a tumbling block keeps its energy, its momentum and its angular momen
       {"nearly incompressible", test::neo_hooke(0.05, 1e-3)},
       {"fibres", test::stable(30, 0.5)}};
   for (const auto& [name, material] : materials) {
-    CAPTURE(name);
+    const auto shown = name;
+    CAPTURE(shown);
     for (double step : {2e-5, 1e-4}) {
       const Kept kept = fly(brick(1), material, 150, step);
       CAPTURE(step);

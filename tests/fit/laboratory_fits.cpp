@@ -182,7 +182,8 @@ TEST_CASE("a ramp and hold in minutes is the record in seconds") {
   CHECK(seconds[1] > 10);
   for (const auto& [heading, unit] :
        {std::pair<std::string, double>{"Time (min)", 60}, {"Time [h]", 3600}, {"t_ms", 1e-3}}) {
-    CAPTURE(heading);
+    const auto shown = heading;
+    CAPTURE(shown);
     write("other.csv", record(heading, unit));
     const VecX other = fitted(config(item("other.csv", heading), law, parameters));
     CHECK((other - seconds).norm() < 1e-4 * seconds.norm());

@@ -549,7 +549,8 @@ TEST_CASE(
   for (const auto& [key, value, name] :
        {std::tuple("mesh.geometry.section.size[1]", 3.4, "thickness"),
         std::tuple("contacts.sphere.rigid.sphere.radius", 2.1, "sphere_radius")}) {
-    CAPTURE(key);
+    const auto shown = key;
+    CAPTURE(shown);
     write_force("force.csv", truth_with(key, value));
     const std::string yaml = with_number("{key: \"" + std::string(key) + "\"}");
     std::string other = yaml;

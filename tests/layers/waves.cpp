@@ -220,7 +220,8 @@ TEST_CASE("waves askew to fibres and stretch have the speeds that the Stroh form
       {70, 4861.322886}, {90, 4294.550618}, {120, 4331.038908}, {160, 5586.817809}};
   for (const auto& [degrees, speed] : speeds) {
     const GuidedWave wave = guided_wave(body, {.angle = degrees * pi / 180});
-    CAPTURE(degrees);
+    const auto shown = degrees;
+    CAPTURE(shown);
     REQUIRE(wave.exists);
     CHECK(wave.speed == near(speed, 1e-6));
   }

@@ -108,7 +108,8 @@ Mesh check_against_gmsh(const std::string& path) {
   const auto other_sets = sets_of(other);
   CHECK(sets.size() == other_sets.size());
   for (const auto& [name, set] : sets) {
-    CAPTURE(name);
+    const auto shown = name;
+    CAPTURE(shown);
     REQUIRE(other_sets.contains(name));
     CHECK(set == other_sets.at(name));
   }

@@ -72,7 +72,8 @@ Ripple ironed(const std::string& on, const std::string& against) {
 TEST_CASE("the forces of ironing have no saw-tooth, whichever surface the law holds on") {
   for (const auto& [on, against] :
        {std::pair{"slab_bottom", "die_top"}, std::pair{"die_top", "slab_bottom"}}) {
-    CAPTURE(on);
+    const auto shown = on;
+    CAPTURE(shown);
     const Ripple ripple = ironed(on, against);
     CHECK(ripple.along < 0.02);
     CHECK(ripple.across < 0.02);

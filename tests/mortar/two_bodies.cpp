@@ -60,7 +60,8 @@ double spread(const std::vector<double>& values) {
 TEST_CASE("two bodies whose meshes do not match transmit a uniform pressure") {
   for (const auto& [on, against] :
        {std::pair{"pad_bottom", "skin_top"}, std::pair{"skin_top", "pad_bottom"}}) {
-    CAPTURE(on);
+    const auto shown = on;
+    CAPTURE(shown);
     const BodiesScene scene = bodies_scene(patch("[3, 2, 5]", on, against));
     const BodiesSolution solution = solved(scene);
     CHECK(spread(solution.last().cell_fields.at("von_mises")) < 1e-10);

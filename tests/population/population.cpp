@@ -101,7 +101,8 @@ TEST_CASE("a synthetic population lies inside the intervals that are found") {
                                          {"c2", std::sqrt(std::expm1(0.25 * 0.25))},
                                          {"alpha", 4. / 35}};
   for (const auto& [name, exact] : truth) {
-    INFO(name);
+    const auto shown = name;
+    INFO(shown);
     CHECK(value(table, name, "lower_95") < exact);
     CHECK(value(table, name, "upper_95") > exact);
     CHECK(value(table, name, "cv_lower_95") < cv.at(name));

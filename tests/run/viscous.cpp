@@ -274,8 +274,11 @@ TEST_CASE(
   const std::string pulled =
       "mesh: {geometry: {block: {size: [4, 2, 2], divisions: [3, 2, 2]}}}\n"
       "supports: [{on: x_min, hold: [x]}, {on: y_min, hold: [y]}, {on: z_min, hold: [z]}]\nloads: [{on: x_max, displacement: {x: ";
-  for (const auto& [scene, face, point] :
+  for (const auto& one :
        {std::tuple(sheared, "top", false), {pulled, "x_max", false}, {pulled, "x_max", true}}) {
+    const std::string& scene = std::get<0>(one);
+    const char* face = std::get<1>(one);
+    const bool point = std::get<2>(one);
     CAPTURE(face);
     const auto found = [&](const std::string& text) {
       const Mesh mesh = test::mesh_in(test::config_of(text));

@@ -73,7 +73,8 @@ TEST_CASE("an angle that looks like radians is a warning, with its value in degr
                                          {1.0472, "60"},
                                          {-0.5236, "-30"},
                                          {3.14159, "180"}}) {
-    CAPTURE(radians);
+    const auto shown = radians;
+    CAPTURE(shown);
     const std::string said = said_of(body + fibre_at(radians) + load);
     CHECK(holds(said, "read as degrees"));
     CHECK(holds(said, degrees));

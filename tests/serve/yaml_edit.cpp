@@ -161,7 +161,8 @@ TEST_CASE("every value of the starters can be edited") {
     walk(parse_yaml_as_written(text, "x"), "");
     for (const auto& [path, value] : scalars) {
       CAPTURE(entry.path());
-      CAPTURE(path);
+      const auto shown = path;
+      CAPTURE(shown);
       const std::string changed = edit_yaml(text, "x", path, "0.123");
       CHECK(changed != text);
       CHECK(std::ranges::count(changed, '\n') == std::ranges::count(text, '\n'));
