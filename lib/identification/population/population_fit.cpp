@@ -919,7 +919,7 @@ void say_result(const Population& all, const First& first, const MixedResult& re
         "mean curve {:.4g}",
         all.names_[at], s.median, unit, s.of_median.low, s.of_median.high, scatter,
         first.average[j], first.of_mean_curve[j]));
-    if (s.shrinkage > 0.3)
+    if (std::isfinite(s.shrinkage) && s.shrinkage > 0.3)
       outcome.warnings.push_back(fmt::format(
           "{} is shrunk by {:.0f} %: the tests of one specimen say little of it, its estimates lean "
           "on the population",
