@@ -426,7 +426,9 @@ TEST_CASE("derivatives through adhesion are those of runs: bonds that hold and t
   check(body + sticky("work: 1.0e-3, stiffness: 0.5, viscosity: 2.0e-3") +
             "path: {steps: 8, seconds: 4}\nsolver: {newton: {relative: 1.0e-12}}\nstability: off\n",
         {"matrix.yeoh.a1", work, "contacts.ball.adhesion.viscosity"}, 1e-5);
-  check(body + sticky("work: 2.0e-3, stiffness: 0.1, tangential: 0.05", 0.3) + eight,
+  // a residual of 1e-12 is below rounding where the ball slips: some increments would be halved
+  check(body + sticky("work: 2.0e-3, stiffness: 0.1, tangential: 0.05", 0.3) +
+            "path: {steps: 8}\nsolver: {newton: {relative: 1.0e-10}}\nstability: off\n",
         {"matrix.yeoh.a1", work, tangential, "contacts.ball.friction"}, 1e-3);
   std::string heals = sticky("work: 2.0e-3, stiffness: 0.1, healing: true");
   heals.replace(heals.find("{t: 1, to:"), 10, "{t: 0.75, to: [0, 0.1, 0]}, {t: 1, to:");
