@@ -670,33 +670,49 @@ std::vector<SpecimenRow> specimen_rows(Population& all, const MixedResult& resul
   return rows;
 }
 
-std::string specimen_csv(Population& all, const First& first, const MixedResult& result,
-                         const std::vector<SpecimenRow>& rows) {
-  std::string text = "specimen,tests,values";
-  for (std::size_t j = 0; j < all.names_.size(); ++j)
-    text += "," + csv_name(all.names_[j], all.units_[j]);
+// Empty where a number is not known.
+std::string cell_of(double value) {
+  return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string();
+}
+
+// Columns of specimens: who they are, and what the fit of each alone has found.
+constexpr const char* identity_names = "specimen,tests,values";
+
+std::string identity_cells(const Individual& one) {
+  return fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
+}
+
+std::string alone_names(const Population& all) {
+  std::string text;
   for (std::size_t j = 0; j < all.names_.size(); ++j)
     text += "," + csv_name(all.names_[j] + "_alone", all.units_[j]);
-  text += ",distance,probability,misfit\n";
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Individual& one = all.individuals_[i];
-    text +=
-        fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
-    const VecX theta = all.backward(all.design_[i] * result.beta + result.b[i]);
-    for (const double x : theta) text += fmt::format(",{:.8g}", x);
-    for (Eigen::Index j = 0; j < all.numbers(); ++j) {
-      text += ",";
-      if (first.fits[i].size() > 0) text += fmt::format("{:.8g}", first.fits[i][j]);
-    }
-    text += fmt::format(",{:.5g},{:.4g},{:.4g}\n", std::sqrt(std::max(0., rows[i].distance)),
-                        rows[i].probability, rows[i].misfit);
+  return text;
+}
+
+std::string alone_cells(const Population& all, const VecX& fit) {
+  std::string text;
+  for (Eigen::Index j = 0; j < all.numbers(); ++j) {
+    text += ",";
+    if (fit.size() > 0) text += cell_of(fit[j]);
   }
   return text;
 }
 
-// Empty where a number is not known.
-std::string cell_of(double value) {
-  return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string();
+std::string specimen_csv(Population& all, const First& first, const MixedResult& result,
+                         const std::vector<SpecimenRow>& rows) {
+  std::string text = identity_names;
+  for (std::size_t j = 0; j < all.names_.size(); ++j)
+    text += "," + csv_name(all.names_[j], all.units_[j]);
+  text += alone_names(all) + ",distance,probability,misfit\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    text += identity_cells(all.individuals_[i]);
+    const VecX theta = all.backward(all.design_[i] * result.beta + result.b[i]);
+    for (const double x : theta) text += fmt::format(",{:.8g}", x);
+    text += alone_cells(all, first.fits[i]);
+    text += fmt::format(",{:.5g},{:.4g},{:.4g}\n", std::sqrt(std::max(0., rows[i].distance)),
+                        rows[i].probability, rows[i].misfit);
+  }
+  return text;
 }
 
 // What a search without a result has reached: the numbers of the population, and the fits of its
@@ -714,22 +730,10 @@ std::vector<PopulationFile> what_was_reached(const Population& all, const First&
                            std::sqrt(reached.omega(j, j)), cell_of(first.average[j]),
                            first.of_mean_curve[j]);
   }
-  std::string specimens = "specimen,tests,values";
-  for (std::size_t j = 0; j < all.names_.size(); ++j)
-    specimens += "," + csv_name(all.names_[j] + "_alone", all.units_[j]);
-  specimens += "\n";
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Individual& one = all.individuals_[i];
-    specimens +=
-        fmt::format("{},{},{}", csv_cell(one.id), one.problem.tests.size(), one.measured.size());
-    for (Eigen::Index j = 0; j < all.numbers(); ++j) {
-      specimens += ",";
-      if (first.fits[i].size() > 0) specimens += cell_of(first.fits[i][j]);
-    }
-    specimens += "\n";
-  }
-  const std::vector<std::string> names = reached_files();
-  return {{names[0], numbers}, {names[1], specimens}};
+  std::string specimens = identity_names + alone_names(all) + "\n";
+  for (std::size_t i = 0; i < all.size(); ++i)
+    specimens += identity_cells(all.individuals_[i]) + alone_cells(all, first.fits[i]) + "\n";
+  return {{"reached.csv", numbers}, {"reached_specimens.csv", specimens}};
 }
 
 // Effects of covariates, with the likelihood ratio of the model without each.
@@ -980,8 +984,6 @@ std::vector<std::string> population_files(const FitConfig& config) {
   }
   return files;
 }
-
-std::vector<std::string> reached_files() { return {"reached.csv", "reached_specimens.csv"}; }
 
 PopulationOutcome fit_population(const FitConfig& config,
                                  const std::function<Place(const std::string&)>& at,

@@ -35,9 +35,6 @@ struct PopulationOutcome {
 // names of the files that a fit of a population writes
 std::vector<std::string> population_files(const FitConfig& config);
 
-// names of those of a search without a result
-std::vector<std::string> reached_files();
-
 // Throws Failure(config), Failure(input), Failure(not_converged). at: place of a key.
 PopulationOutcome fit_population(const FitConfig& config,
                                  const std::function<Place(const std::string&)>& at,
