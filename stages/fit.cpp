@@ -3,6 +3,7 @@
 //                                                 of other programs: abaqus.inp, ansys.txt, febio.xml, calculix.inp
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "core/base/interrupt.hpp"
 #include "core/hdf5/replace.hpp"
@@ -62,9 +63,14 @@ void write_reached(const Job<FitConfig>& job, const FitProblem& problem, const F
       job.side_file("reached.csv"));
 }
 
-// of an earlier run that found no optimum
+// Those of an earlier run that found no optimum. A reached.csv of somebody else stays.
 void remove_reached(const Job<FitConfig>& job) {
   std::error_code ignored;
+  const std::string reached = job.side_file("reached.csv");
+  if (!std::filesystem::is_regular_file(reached, ignored)) return;
+  std::string columns;
+  std::getline(std::ifstream(reached), columns);
+  if (!columns.starts_with("parameter,key,reached,")) return;
   for (const char* name : {"reached.csv", "reached_fit.csv", "reached_specimens.csv"})
     std::filesystem::remove(job.side_file(name), ignored);
 }

@@ -25,6 +25,14 @@ if(NOT count EQUAL 32 OR NOT header STREQUAL "strain,cauchy_stress_MPa,model_MPa
   message(FATAL_ERROR "fit.csv has ${count} lines and the columns ${header}")
 endif()
 
+# a file of somebody else with the name of one that a search without an optimum leaves
+file(WRITE ${WORK}/own/reached.csv "mine\n")
+run(0 "" ${BIN}/langer-fit ${ROOT}/configs/fit/abdomen_yeoh.yaml -o own/material.h5 --quiet)
+file(READ ${WORK}/own/reached.csv kept)
+if(NOT kept STREQUAL "mine\n")
+  message(FATAL_ERROR "a fit changed a file that it did not make: ${kept}")
+endif()
+
 # equal inputs give equal files
 set(ENV{SOURCE_DATE_EPOCH} 0)
 foreach(copy 1 2)
