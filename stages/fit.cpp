@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "core/base/interrupt.hpp"
 #include "core/hdf5/replace.hpp"
@@ -37,6 +38,16 @@ FitResult best_fit(const FitConfig& config, const FitProblem& problem) {
     std::vector<Error> errors = failure.errors();
     for (Error& e : errors) e.where.file = config.data.front().file.path;
     throw Failure(failure.code(), errors);
+  }
+}
+
+// Writes what a search without an optimum has reached. Where a file of somebody else is in the way,
+// the reason of the search is still the error of the run, and the file a warning.
+void try_to_write(const Job<FitConfig>& job, const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const Failure& failure) {
+    job.warn("what the search reached is not kept: {}", failure.what());
   }
 }
 
@@ -87,13 +98,14 @@ FitResult search(const Job<FitConfig>& job, const FitProblem& problem,
     try {
       return scenes->search();
     } catch (const Failure& failure) {
-      if (scenes->reached()) write_reached(job, problem, *scenes->reached(), scenes);
+      if (scenes->reached())
+        try_to_write(job, [&] { write_reached(job, problem, *scenes->reached(), scenes); });
       throw;
     }
   }
   FitResult found = best_fit(job.config, problem);
   if (found.best.converged) return found;
-  write_reached(job, problem, found, scenes);
+  try_to_write(job, [&] { write_reached(job, problem, found, scenes); });
   throw Failure(
       Exit::not_converged,
       {job.where("parameters"), "parameters",
@@ -291,10 +303,12 @@ std::vector<Summary> fit_specimens(const Job<FitConfig>& job) {
   const PopulationOutcome outcome =
       fit_population(job.config, at, [&](const std::string& line) { job.say("{}", line); });
   if (outcome.no_result) {
-    for (const PopulationFile& file : outcome.files)
-      write_text_file(job.side_file(file.name), file.text);
-    job.say("what the search reached, and the fits of the specimens alone, are in {} and {}",
-            job.side_file(outcome.files.front().name), job.side_file(outcome.files.back().name));
+    try_to_write(job, [&] {
+      for (const PopulationFile& file : outcome.files)
+        write_text_file(job.side_file(file.name), file.text);
+      job.say("what the search reached, and the fits of the specimens alone, are in {} and {}",
+              job.side_file(outcome.files.front().name), job.side_file(outcome.files.back().name));
+    });
     throw Failure(Exit::not_converged, *outcome.no_result);
   }
   remove_reached(job);

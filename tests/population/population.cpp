@@ -263,6 +263,48 @@ TEST_CASE("a search without a population leaves what it reached, and the fits of
   CHECK(contains(found.files[1].text, "\nA,1,6,0.0099"));
 }
 
+TEST_CASE("a median that the tests do not know, or outside its bounds, is no result") {
+  const fs::path folder = small_study("specimens_unknown", "id,age\nA,20\nB,30\nC,50\n");
+  const auto outcome = [&](const std::string& specimens, const std::string& law,
+                           const std::string& rest) {
+    return outcome_of(config_of(parse_yaml(
+        "specimens: {table: specimens.csv, data: \"curves/{id}_{test}.csv\"" + specimens +
+            "}\nlaw: {matrix: {neo_hooke: {a1: 0.02}}, volume: {quadratic: {d: 1e-6}}" + law +
+            "}\n" + rest + "starts: 2\n",
+        "fit.yaml", folder.string())));
+  };
+  // tension of specimens without fibres says nothing of the angle of fibres
+  const auto of_angle = [&](const std::string& start, const std::string& noise) {
+    return outcome(", shared: [matrix.neo_hooke.a1]",
+                   ", fibres: [{hgo: {c1: 0.02, c2: 3}, alpha: " + start + ", kappa: 0}]",
+                   "bounds: admissible\nnoise: " + noise +
+                       "\nparameters: [{key: matrix.neo_hooke.a1}, {key: \"fibres[0].alpha\"}]\n");
+  };
+
+  SUBCASE("a search that ends far from every specimen") {
+    const PopulationOutcome found = of_angle("30", "autoregressive");
+    REQUIRE(found.no_result);
+    CHECK(contains(found.no_result->found, "the tests do not know the median of"));
+    CHECK(found.files[0].name == "reached.csv");
+  }
+  SUBCASE("an angle that the stress does not depend on") {
+    const PopulationOutcome found = of_angle("0", "white");
+    REQUIRE(found.no_result);
+    CHECK(contains(found.no_result->found,
+                   "the tests do not know the median of alpha: its interval is wider than all"));
+  }
+  SUBCASE("bounds below the modulus of all specimens") {
+    const PopulationOutcome found = outcome(
+        "", "",
+        "bounds: admissible\n"
+        "parameters: [{key: matrix.neo_hooke.a1, lower: 0.001, upper: 0.009, start: 0.005}]\n");
+    REQUIRE(found.no_result);
+    INFO(found.no_result->found);
+    CHECK(contains(found.no_result->found,
+                   "the median of a1, 0.01339, is outside its bounds 0.001 to 0.009"));
+  }
+}
+
 TEST_CASE("what is wrong with a table of specimens is named at its line") {
   const auto refused = [](const std::string& table, const std::string& more = "") {
     return refusal(small_config(small_study("specimens_bad", table), more));

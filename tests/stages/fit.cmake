@@ -33,6 +33,28 @@ if(NOT kept STREQUAL "mine\n")
   message(FATAL_ERROR "a fit changed a file that it did not make: ${kept}")
 endif()
 
+# where a search ends without an optimum, its own reason is the error of the run
+file(WRITE ${WORK}/foreign/reached.csv "mine\n")
+file(WRITE ${WORK}/foreign/specimens.csv "id\nA\nB\nC\n")
+foreach(specimen A 2 B 3 C 4)
+  if(specimen MATCHES "[ABC]")
+    set(name ${specimen})
+  else()
+    file(WRITE ${WORK}/foreign/${name}_tension.csv
+         "strain,nominal_stress_MPa\n0,0\n0.1,0.00${specimen}\n0.2,0.01${specimen}\n0.3,0.02${specimen}\n0.4,0.03${specimen}\n")
+  endif()
+endforeach()
+file(WRITE ${WORK}/foreign/fit.yaml "specimens: {table: specimens.csv, data: \"{id}_{test}.csv\"}\n"
+     "law: {matrix: {neo_hooke: {a1: 0.02}}, volume: {quadratic: {d: 1e-6}}}\n"
+     "bounds: admissible\nparameters: [{key: matrix.neo_hooke.a1, lower: 0.0001, upper: 0.001, start: 0.0005}]\n")
+foreach(text "what the search reached is not kept" "is outside its bounds 0.0001 to 0.001")
+  run(4 "${text}" ${BIN}/langer-fit foreign/fit.yaml -o foreign/population.h5)
+endforeach()
+file(READ ${WORK}/foreign/reached.csv kept)
+if(NOT kept STREQUAL "mine\n")
+  message(FATAL_ERROR "a search without an optimum changed a file that it did not make: ${kept}")
+endif()
+
 # equal inputs give equal files
 set(ENV{SOURCE_DATE_EPOCH} 0)
 foreach(copy 1 2)

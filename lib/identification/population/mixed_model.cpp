@@ -396,21 +396,50 @@ bool make_linear(const MixedSpecimen& specimen, const VecX& phi, Linear& one) {
   return true;
 }
 
-// Inverse of a symmetric matrix that may lack rank: directions without information are left out.
-MatX pseudo_inverse(const MatX& A) {
-  if (A.size() == 0) {
-    return A;
+// What an information matrix tells of its parameters. Directions without information have no part
+// in the covariance.
+class Known {
+ public:
+  explicit Known(const MatX& information)
+      : scale_(information.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse()) {
+    const SymmetricEigen eigen =
+        symmetric_eigen(scale_.asDiagonal() * information * scale_.asDiagonal());
+    vectors_ = eigen.vectors;
+    inverse_ = (eigen.values.array() > 1e-10).select(eigen.values.cwiseInverse(), 0);
   }
-  const VecX scale = A.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * A * scale.asDiagonal());
-  VecX inverse = VecX::Zero(eigen.values.size());
-  for (Eigen::Index i = 0; i < inverse.size(); ++i) {
-    if (eigen.values[i] > 1e-10) {
-      inverse[i] = 1 / eigen.values[i];
+
+  MatX covariance() const {
+    const MatX inner = vectors_ * inverse_.asDiagonal() * vectors_.transpose();
+    return scale_.asDiagonal() * inner * scale_.asDiagonal();
+  }
+
+  // Variance of a function with this gradient; infinite where a direction without information
+  // changes it.
+  double variance(const VecX& gradient) const {
+    const VecX along = vectors_.transpose() * scale_.cwiseProduct(gradient);
+    const double size = along.norm();
+    double sum = 0;
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      if (inverse_[i] > 0) {
+        sum += along[i] * along[i] * inverse_[i];
+      } else if (std::abs(along[i]) > 1e-6 * size) {
+        return std::numeric_limits<double>::infinity();
+      }
     }
+    return sum;
   }
-  const MatX inner = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
-  return scale.asDiagonal() * inner * scale.asDiagonal();
+
+ private:
+  VecX scale_, inverse_;
+  MatX vectors_;
+};
+
+// The covariance of parameters with this information, with infinite variances where it is missing.
+MatX covariance_of(const MatX& information) {
+  const Known known(information);
+  MatX C = known.covariance();
+  for (Eigen::Index i = 0; i < C.rows(); ++i) C(i, i) = known.variance(VecX::Unit(C.rows(), i));
+  return C;
 }
 
 // Errors of standard deviations and correlations, by the delta method from those of L.
@@ -418,7 +447,7 @@ void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const
                 const std::vector<Eigen::Index>& random, MixedResult& result) {
   const auto q = result.omega.rows();
   const auto last = model.size() - 1;
-  const MatX covariance = pseudo_inverse(value.information);
+  const Known known(value.information);
   result.log_deviation_error = VecX::Constant(q, unknown);
   result.correlation_error = MatX::Constant(q, q, unknown);
   const MatX omega = L * L.transpose();
@@ -431,7 +460,7 @@ void set_errors(const LinearMixed& model, const LinearMixed::Value& value, const
     for (Eigen::Index e = 0; e < last; ++e) {
       gradient[e] = change(slopes[static_cast<std::size_t>(e)]);
     }
-    return std::sqrt(gradient.dot(covariance * gradient));
+    return std::sqrt(known.variance(gradient));
   };
   const auto r = static_cast<Eigen::Index>(random.size());
   for (Eigen::Index i = 0; i < r; ++i) {
@@ -607,7 +636,7 @@ MixedResult fit_mixed_model(const std::vector<MixedSpecimen>& specimens, const M
     const double variance_change = std::abs(next[model.size() - 1] - x[model.size() - 1]);
     x = next;
     L = model.factor(x);
-    result.beta_covariance = pseudo_inverse(value.beta_information);
+    result.beta_covariance = covariance_of(value.beta_information);
 
     // The population goes to the minimum of the nonlinear model, as far as its cost falls.
     const VecX step = value.beta - result.beta;
@@ -727,7 +756,7 @@ MixedDraws mixed_posterior(const std::vector<MixedSpecimen>& specimens, const Mi
       const LinearMixed::Value value = model.at(x, false);
       VecX z(k);
       for (double& one : z) one = random_beta.normal();
-      const MatX covariance = pseudo_inverse(value.beta_information);
+      const MatX covariance = Known(value.beta_information).covariance();
       draws.beta.row(row) = (value.beta + covariance_root(covariance) * z).transpose();
       const MatX rows = model.factor(x);
       for (std::size_t j = 0; j < random.size(); ++j)

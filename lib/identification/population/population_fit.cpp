@@ -257,6 +257,11 @@ class Population {
     if (!unlimited.empty())
       result.why = "the scatter of " + unlimited +
                    " grows without limit: the tests do not know it, or specimens lie on its bound";
+    turn_angles_into_box(result);
+    if (const std::string why = not_a_result(result, options); result.converged && !why.empty()) {
+      result.converged = false;
+      result.why = why;
+    }
     result.minus_two_log_likelihood += log_weights_;
     result.likelihood_parameters += noise_.parameters();
     return result;
@@ -283,6 +288,35 @@ class Population {
   double least_ = 1e-6;
 
  private:
+  // Angles that come again after half a turn are given within their box.
+  void turn_angles_into_box(MixedResult& result) const {
+    const Individual& first = individuals_.front();
+    for (Eigen::Index j = 0; j < numbers(); ++j) {
+      const FreeParameter& free = first.problem.free[static_cast<std::size_t>(j)];
+      const double period = first.model.period_of(j);
+      if (period > 0) result.beta[j] = into_box(result.beta[j], period, free.lower, free.upper);
+    }
+  }
+
+  // Why the end of a search is no result: a median that the tests do not know, or one outside the
+  // bounds that were given. Empty: it is one.
+  std::string not_a_result(const MixedResult& result, const MixedOptions& options) const {
+    for (Eigen::Index j = 0; j < numbers(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const double error = std::sqrt(result.beta_covariance(j, j));
+      if (!(error <= options.largest_deviation[j]))
+        return fmt::format("the tests do not know the median of {}: its interval is wider than {}",
+                           names_[at], units_[at] == unit::deg ? "all angles" : "any bounds");
+      const FreeParameter& free = individuals_.front().problem.free[at];
+      const double median = links_[at].backward(result.beta[j]);
+      const double margin = 1e-9 * std::max(std::abs(free.lower), std::abs(median));
+      if (!(median >= free.lower - margin && median <= free.upper + margin))
+        return fmt::format("the median of {}, {:.4g}, is outside its bounds {:.4g} to {:.4g}",
+                           names_[at], median, free.lower, free.upper);
+    }
+    return "";
+  }
+
   void add_individual(const std::string& id) {
     FitConfig own = config_;
     own.specimens.reset();
