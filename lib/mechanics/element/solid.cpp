@@ -71,8 +71,8 @@ bool solid_of(Formulation formulation, const Material& material, double local,
     const double w = geometry.w[g];
     const double J = 1 + at.J_minus_1[g];
     const Mat3 C = at.F[g].transpose() * at.F[g];
-    Response iso =
-        memory ? isochoric(material, C, a, memory->amplified) : isochoric(material, C, a);
+    Response iso = memory ? isochoric(material, C, a, memory->amplified, with_tangent)
+                          : isochoric(material, C, a, with_tangent);
     if (memory) iso.S += memory->H[static_cast<std::size_t>(g)];
     out.W += w * iso.W;
     const Mat3 C_inverse = C.inverse();
@@ -175,7 +175,7 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
     for (int k = 0; k < n_p && modal; ++k) s.pressure += dilatation_mode(geometry, g, k) * p[k];
-    Vec6 S = isochoric(material, s.F.transpose() * s.F, a).S;
+    Vec6 S = isochoric(material, s.F.transpose() * s.F, a, false).S;
     if (!branches.empty()) S += branches[static_cast<std::size_t>(g)];
     s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
   }
