@@ -152,39 +152,45 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
   std::vector<int> row_of(contact.nodes.size(), -1);
   std::vector<Vec3> slip, traction, reaction;
   const auto turning = turnings(contact, x);
+  // What changes a reaction as a whole acts on its nodes with their weights: by row and column.
+  const auto n_rows = static_cast<Eigen::Index>(3 * law.nodes.size());
+  const auto n_columns = static_cast<Eigen::Index>(
+      std::count_if(column_of.begin(), column_of.end(), [](int c) { return c >= 0; }));
+  Entries weights, turned;
   for (std::size_t p = 0; p < law.nodes.size(); ++p) {
     const MortarNode& node = law.nodes[p];
     const Mat3& frame = law.frames[p];
-    const Eigen::Index row = first_row + 3 * static_cast<Eigen::Index>(p);
+    const int own_row = 3 * static_cast<int>(p);
+    const int row = first_row + own_row;
     row_of[static_cast<std::size_t>(node.candidate)] = static_cast<int>(p);
     const Vec3 v = node.average(moved);
     slip.push_back(v);
     reaction.push_back(frame * (law.r[p] + law.beside[p]));
     traction.push_back(reaction[p] / node.area);
+    const bool acts = !reaction[p].isZero(0);
     for (const auto* side : {&node.own, &node.other})
       for (const Weight& w : *side)
-        for (int j = 0; j < 3; ++j)
-          if (const int column = columns.of(3 * w.node + j); column >= 0)
-            into.L.block<3, 1>(row, column) += w.of * frame.row(j).transpose();
+        for (int j = 0; j < 3; ++j) {
+          const int column = columns.of(3 * w.node + j);
+          if (column < 0) continue;
+          into.L.add_block(row, column, Vec3(w.of * frame.row(j).transpose()));
+          if (acts) weights.add(column, own_row + j, w.of);
+        }
     for (const NodalForce& force : force_operator(node, x))
       for (int j = 0; j < 3; ++j)
         if (const int column = columns.of(3 * force.node + j); column >= 0)
-          into.G.block<1, 3>(column, row) += force.per_reaction.row(j) * frame;
+          into.G.add_block(column, row, (force.per_reaction.row(j) * frame).eval());
     // normals turn, and the present reaction with them
     const Vec3 n = node.normal;
     for (const Turning& turn : turning[static_cast<std::size_t>(node.candidate)]) {
       const int column = columns.of(turn.dof);
       if (column < 0) continue;
       const Vec3 across = frame.transpose() * turn.dn;
-      into.L.block<3, 1>(row, column) +=
-          Vec3(turn.dn.dot(node.jump), -across[1] * n.dot(v), -across[2] * n.dot(v));
-      if (reaction[p].isZero(0)) continue;
+      into.L.add_block(row, column,
+                       Vec3(turn.dn.dot(node.jump), -across[1] * n.dot(v), -across[2] * n.dot(v)));
+      if (!acts) continue;
       const Vec3 dr = reaction[p].dot(n) * turn.dn - n * reaction[p].dot(turn.dn);
-      for (const auto* side : {&node.own, &node.other})
-        for (const Weight& w : *side)
-          for (int j = 0; j < 3; ++j)
-            if (const int at = columns.of(3 * w.node + j); at >= 0)
-              into.C(at, column) += w.of * dr[j];
+      turned.add_block(own_row, column, dr);
     }
   }
   std::vector<std::map<int, double>> area_changes(law.nodes.size());
@@ -238,7 +244,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
         const double da = change.dD[i];
         const Vec3 dv = frame.transpose() * (v - da * slip[at]) / node.area;
         const double dg = node.normal.dot(jump - da * node.jump) / node.area;
-        into.L.block<3, 1>(first_row + 3 * p, column) += Vec3(dg, dv[1], dv[2]);
+        into.L.add_block(first_row + 3 * p, column, Vec3(dg, dv[1], dv[2]));
         if (acts) area_changes[at][column] += da / node.area;
       }
       if (!forces) continue;
@@ -246,7 +252,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
         for (std::size_t j = 0; j < 4; ++j)
           for (int k = 0; k < 3; ++k)
             if (const int at = columns.of(3 * corners[j] + k); at >= 0)
-              into.C(at, column) += force[j][k];
+              into.C.add(at, column, force[j][k]);
       };
       add(own, own_force);
       for (std::size_t o = 0; o < facet.overlaps.size(); ++o)
@@ -256,11 +262,12 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
   // the sums are divided by the area of their node
   for (std::size_t p = 0; p < law.nodes.size(); ++p)
     for (const auto& [column, share] : area_changes[p])
-      for (const auto* side : {&law.nodes[p].own, &law.nodes[p].other})
-        for (const Weight& w : *side)
-          for (int j = 0; j < 3; ++j)
-            if (const int at = columns.of(3 * w.node + j); at >= 0)
-              into.C(at, column) -= share * w.of * reaction[p][j];
+      turned.add_block(3 * static_cast<int>(p), column, Vec3(-share * reaction[p]));
+  const Eigen::SparseMatrix<double> of_reactions =
+      weights.matrix(n_columns, n_rows) * turned.matrix(n_rows, n_columns);
+  for (int column = 0; column < of_reactions.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(of_reactions, column); entry; ++entry)
+      into.C.add(static_cast<int>(entry.row()), column, entry.value());
 }
 
 }  // namespace langer

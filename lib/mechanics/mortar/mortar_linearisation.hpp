@@ -8,6 +8,7 @@
 // method converges quadratically.                                        [PGGW10], [GPGW10]
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "mechanics/mortar/mortar_facet.hpp"
@@ -21,16 +22,34 @@ struct MortarLaw {
   std::vector<Vec3> beside;       // local forces that act like r, and are not the law's: bonds
 };
 
+// Entries of a sparse matrix. Those of the same place are summed up in their order.
+class Entries {
+ public:
+  void add(int row, int column, double value) { list_.emplace_back(row, column, value); }
+  template <class Block>
+  void add_block(int row, int column, const Block& block) {
+    for (int j = 0; j < block.cols(); ++j)
+      for (int i = 0; i < block.rows(); ++i) add(row + i, column + j, block(i, j));
+  }
+  Eigen::SparseMatrix<double> matrix(Eigen::Index rows, Eigen::Index columns) const {
+    Eigen::SparseMatrix<double> out(rows, columns);
+    out.setFromTriplets(list_.begin(), list_.end());
+    return out;
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> list_;
+};
+
 struct MortarMatrices {
-  MatX L;  // (3 rows, columns)
-  MatX G;  // (columns, 3 rows): forces of local reactions
-  MatX C;  // (columns, columns)
+  Entries L;  // (3 rows, columns)
+  Entries G;  // (columns, 3 rows): forces of local reactions
+  Entries C;  // (columns, columns)
 };
 
 // wanted: by candidate, whether it has a row. bonds: by candidate, global; empty: none. x0:
 // positions that the slip is measured from. column_of (3 n): column of a degree of freedom, -1:
-// none. first_row: of this contact's rows in `into`, which is large enough and to which all is
-// added.
+// none. first_row: of this contact's rows in `into`, to which all is added.
 MortarLaw mortar_law(const std::vector<MortarNode>& nodes, const std::vector<char>& wanted,
                      const VecX& x, const VecX& x0, const std::vector<Vec3>& reactions,
                      const std::vector<Vec3>& bonds = {});

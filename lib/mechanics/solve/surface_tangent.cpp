@@ -12,10 +12,12 @@ namespace langer {
 namespace {
 
 // FG: compliance times the forces of reactions.
-double mean_compliance(const SurfaceSystem& system, const MatX& FG) {
+double mean_compliance(const Eigen::SparseMatrix<double>& L, const MatX& FG) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < system.L.rows(); ++i) sum += system.L.row(i).dot(FG.col(i));
-  const double mean = sum / static_cast<double>(std::max<Eigen::Index>(system.L.rows(), 1));
+  for (int column = 0; column < L.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(L, column); entry; ++entry)
+      sum += entry.value() * FG(column, entry.row());
+  const double mean = sum / static_cast<double>(std::max<Eigen::Index>(L.rows(), 1));
   return std::max(mean, std::numeric_limits<double>::min());
 }
 
@@ -29,27 +31,27 @@ SurfaceTangent::SurfaceTangent(const IncrementState& state, const TangentFactor&
   const std::vector<Vec3> none;
   const ContactState contact{state.contacts, X, now.u, state.u_start, none, none, now.r};
   system_ = surface_system(contact, state.surfaces, state.before.u, factor);
-  // Few entries of G and C are not zero.
-  const MatX FG = system_.F * Eigen::SparseMatrix<double>(system_.G.sparseView());
-  typical_ = mean_compliance(system_, FG);
+  const SurfaceLaws& laws = system_.laws;
+  const MatX FG = system_.F * laws.G;
+  typical_ = mean_compliance(laws.L, FG);
   const std::vector<ContactDefect> defects = state.surface_defects();
-  const Eigen::Index n = static_cast<Eigen::Index>(system_.dofs.size());
-  const Eigen::Index m = system_.q.size();
+  const Eigen::Index n = static_cast<Eigen::Index>(laws.dofs.size());
+  const Eigen::Index m = laws.q.size();
   if (n == 0) return;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> L = laws.L;
   MatX M = MatX::Zero(n + m, n + m);
-  M.topLeftCorner(n, n) =
-      MatX::Identity(n, n) - system_.F * Eigen::SparseMatrix<double>(system_.C.sparseView());
+  M.topLeftCorner(n, n) = MatX::Identity(n, n) - system_.F * laws.C;
   M.topRightCorner(n, m) = -FG / typical_;
   for (std::size_t p = 0; p < system_.rows.size(); ++p) {
     const SurfaceSystem::Row& row = system_.rows[p];
     const auto at = 3 * static_cast<Eigen::Index>(p);
     CandidateState& one = candidates_.emplace_back();
     one.status = defects[row.surface].status[row.candidate];
-    one.mu = system_.mu[static_cast<Eigen::Index>(p)];
-    one.r = system_.r.segment<3>(at);
-    one.slip = system_.q.segment<2>(at + 1).norm();
-    const LawRows& law = laws_.emplace_back(law_rows(one, typical_));
-    M.block(n + at, 0, 3, n) = law.x * system_.L.middleRows<3>(at);
+    one.mu = laws.mu[static_cast<Eigen::Index>(p)];
+    one.r = laws.r.segment<3>(at);
+    one.slip = laws.q.segment<2>(at + 1).norm();
+    const LawRows& law = rows_.emplace_back(law_rows(one, typical_));
+    M.block(n + at, 0, 3, n) = law.x * MatX(L.middleRows(at, 3));
     M.block<3, 3>(n + at, n + at) = law.r / typical_;
   }
   lu_.compute(M);
@@ -59,11 +61,11 @@ SurfaceTangent::SurfaceTangent(const IncrementState& state, const TangentFactor&
 
 SurfaceTangent::Loads SurfaceTangent::loads(const ParameterChange& change,
                                             const VecX& before) const {
-  Loads loads{VecX::Zero(system_.q.size()),
-              VecX::Zero(static_cast<Eigen::Index>(system_.dofs.size()))};
+  Loads loads{VecX::Zero(system_.laws.q.size()),
+              VecX::Zero(static_cast<Eigen::Index>(system_.laws.dofs.size()))};
   if (change.prescribed.size() > 0)
-    for (std::size_t c = 0; c < system_.dofs.size(); ++c)
-      loads.prescribed[static_cast<Eigen::Index>(c)] = change.prescribed[system_.dofs[c]];
+    for (std::size_t c = 0; c < system_.laws.dofs.size(); ++c)
+      loads.prescribed[static_cast<Eigen::Index>(c)] = change.prescribed[system_.laws.dofs[c]];
   const auto& averages = state_.surfaces.at(state_.body.mesh().X, state_.now.u);
   for (std::size_t p = 0; p < system_.rows.size(); ++p) {
     const SurfaceSystem::Row& row = system_.rows[p];
@@ -75,18 +77,18 @@ SurfaceTangent::Loads SurfaceTangent::loads(const ParameterChange& change,
         std::ranges::find(nodes, static_cast<int>(row.candidate), &MortarNode::candidate);
     Vec3 slipped = -(row.frame.transpose() * node->average(before));
     slipped[0] = 0;
-    loads.h.segment<3>(at) -= laws_[p].x * slipped;
+    loads.h.segment<3>(at) -= rows_[p].x * slipped;
     if (change.mu.empty() || one.status != ContactStatus::slip) continue;
     const Eigen::Vector2d s = -one.r.tail<2>().normalized();
-    loads.h.segment<2>(at + 1) -= laws_[p].r(1, 1) * change.mu[first_ + row.surface] * one.r[0] * s;
+    loads.h.segment<2>(at + 1) -= rows_[p].r(1, 1) * change.mu[first_ + row.surface] * one.r[0] * s;
   }
   return loads;
 }
 
 std::optional<SurfaceTangent::Change> SurfaceTangent::solve(const VecX& rhs,
                                                             const Loads& loads) const {
-  const Eigen::Index n = static_cast<Eigen::Index>(system_.dofs.size());
-  const Eigen::Index m = system_.q.size();
+  const Eigen::Index n = static_cast<Eigen::Index>(system_.laws.dofs.size());
+  const Eigen::Index m = system_.laws.q.size();
   Change out{{}, VecX::Zero(m)};
   if (n == 0) {
     out.move = factor_.linear().solve(rhs);
@@ -98,16 +100,16 @@ std::optional<SurfaceTangent::Change> SurfaceTangent::solve(const VecX& rhs,
   if (loads.prescribed.size() > 0) b.head(n) = loads.prescribed;
   if (loads.h.size() > 0) b.tail(m) = loads.h;
   for (Eigen::Index c = 0; c < n; ++c)
-    if (const int row = factor_.last_of(system_.dofs[static_cast<std::size_t>(c)]); row >= 0)
+    if (const int row = factor_.last_of(system_.laws.dofs[static_cast<std::size_t>(c)]); row >= 0)
       b[c] += staged.last()[row];
   const VecX answer = singular_ ? least_.solve(b) : lu_.solve(b);
   if (!answer.allFinite()) return std::nullopt;
   out.r = answer.tail(m) / typical_;
   // forces on the rows that the factor has eliminated last
-  const VecX s = system_.G * out.r + system_.C * answer.head(n);
+  const VecX s = system_.laws.G * out.r + system_.laws.C * answer.head(n);
   VecX force = VecX::Zero(staged.last().size());
   for (Eigen::Index c = 0; c < n; ++c)
-    if (const int row = factor_.last_of(system_.dofs[static_cast<std::size_t>(c)]); row >= 0)
+    if (const int row = factor_.last_of(system_.laws.dofs[static_cast<std::size_t>(c)]); row >= 0)
       force[row] = s[c];
   out.move = staged.with(force);
   if (out.move.allFinite()) return out;
@@ -130,7 +132,7 @@ double SurfaceTangent::step(const VecX& du, const Reactions& r) const {
   for (const SurfaceContact& surface : state_.surfaces.surfaces())
     length = std::min(length, surface.reach);
   double moved = 0;
-  for (const int dof : system_.dofs) moved = std::max(moved, std::abs(du[dof]));
+  for (const int dof : system_.laws.dofs) moved = std::max(moved, std::abs(du[dof]));
   double changed = 0;
   double largest = 0;
   for (std::size_t s = first_; s < r.size(); ++s)

@@ -62,7 +62,7 @@ class SurfaceTangent {
   std::size_t first_ = 0;  // of the surfaces among the reactions
   SurfaceSystem system_;
   std::vector<CandidateState> candidates_;  // by row
-  std::vector<LawRows> laws_;
+  std::vector<LawRows> rows_;
   double typical_ = 1;  // compliance [mm/N]
   VecX x_;              // positions (3 n)
   Lu lu_;               // of d and typical * r'

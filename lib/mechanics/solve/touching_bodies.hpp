@@ -18,6 +18,7 @@
 
 #include "mechanics/mortar/mortar_linearisation.hpp"
 #include "mechanics/solve/contact_linearisation.hpp"
+#include "mechanics/solve/surface_laws.hpp"
 
 namespace langer {
 
@@ -66,10 +67,9 @@ struct SurfaceSystem {
     std::size_t surface, candidate;
     Mat3 frame;
   };
+  SurfaceLaws laws;       // springs of the factor are taken out in C
   std::vector<Row> rows;  // three of the matrices each
-  std::vector<int> dofs;  // by column
-  MatX L, G, C, F;        // see above; springs of the factor are taken out in C
-  VecX q, r, mu;          // local gap and slip, and reactions; friction by row
+  MatX F;                 // compliance (columns, columns)
 };
 // state: without indenters that bear something
 SurfaceSystem surface_system(const ContactState& state, TouchingBodies& bodies, const VecX& u_begin,
