@@ -225,6 +225,44 @@ TEST_CASE("a stiff pad with friction is a rigid plane, and its work is stored or
   CHECK(*std::ranges::max_element(slip) < 0.25);
 }
 
+TEST_CASE("a quarter of two bodies with friction is a quarter of the whole") {
+  const auto scene_of = [](const std::string& origin, const std::string& n, const std::string& w,
+                           const std::string& supports) {
+    return "bodies:\n  skin: " +
+           block("[" + origin + ", 0, " + origin + "]", "[" + w + ", 1, " + w + "]",
+                 "[" + n + ", 2, " + n + "]", soft) +
+           "\n  pad: " +
+           block("[" + std::to_string(0.625 * std::stod(origin)) + ", 1, " +
+                     std::to_string(0.625 * std::stod(origin)) + "]",
+                 "[" + std::to_string(0.625 * std::stod(w)) + ", 1, " +
+                     std::to_string(0.625 * std::stod(w)) + "]",
+                 "[" + n + ", 2, " + n + "]", soft) +
+           "\nsupports:\n  - {on: skin_bottom, hold: [x, y, z]}\n" + supports +
+           "loads: [{on: pad_top, displacement: {x: 0, y: -0.3, z: 0}}]\n"
+           "contacts: {pad: {on: pad_bottom, against: skin_top, friction: 0.2}}\n"
+           "path: {first: 0.5, largest: 0.5}\n";
+  };
+  const BodiesScene quarter =
+      bodies_scene(scene_of("0", "4", "2",
+                            "  - {on: skin_x_min, hold: [x]}\n  - {on: skin_z_min, hold: [z]}\n"
+                            "  - {on: pad_x_min, hold: [x]}\n  - {on: pad_z_min, hold: [z]}\n"));
+  const BodiesScene whole = bodies_scene(scene_of("-2", "8", "4", ""));
+  const StepRecord of_quarter = solved(quarter).last();
+  const StepRecord of_whole = solved(whole).last();
+  int found = 0;
+  for (int i = 0; i < quarter.mesh.n_nodes(); ++i)
+    for (int j = 0; j < whole.mesh.n_nodes(); ++j) {
+      const auto a = static_cast<std::size_t>(i);
+      const auto b = static_cast<std::size_t>(j);
+      if ((quarter.mesh.X[a] - whole.mesh.X[b]).norm() > 1e-9) continue;
+      // nodes of the two bodies may be at one place; those of the skin come first
+      if ((2 * i < quarter.mesh.n_nodes()) != (2 * j < whole.mesh.n_nodes())) continue;
+      ++found;
+      CHECK((of_quarter.u[a] - of_whole.u[b]).norm() < 1e-6);  // by the tolerance of the law
+    }
+  CHECK(found == quarter.mesh.n_nodes());
+}
+
 TEST_CASE("a run of two bodies that was killed goes on with the same digits") {
   const BodiesScene scene =
       bodies_scene(pressed_and_drawn(pad_over_skin, pad_pressed_and_drawn, "0.1"));

@@ -50,9 +50,13 @@ std::vector<std::vector<Turning>> turnings(const SurfaceContact& contact, const 
   }
   std::vector<std::vector<Turning>> out(contact.nodes.size());
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    const double size = sum[i].norm();
-    const Vec3 n = sum[i] / size;
-    for (const auto& [dof, dm] : change[i]) out[i].push_back({dof, (dm - n * n.dot(dm)) / size});
+    const Vec3 mean = contact.within_mirrors(i, sum[i]);
+    const double size = mean.norm();
+    const Vec3 n = mean / size;
+    for (const auto& [dof, change_of_sum] : change[i]) {
+      const Vec3 dm = contact.within_mirrors(i, change_of_sum);
+      out[i].push_back({dof, (dm - n * n.dot(dm)) / size});
+    }
   }
   return out;
 }
@@ -156,7 +160,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
   const auto n_rows = static_cast<Eigen::Index>(3 * law.nodes.size());
   const auto n_columns = static_cast<Eigen::Index>(
       std::count_if(column_of.begin(), column_of.end(), [](int c) { return c >= 0; }));
-  Entries weights, turned;
+  SparseEntries weights, turned;
   for (std::size_t p = 0; p < law.nodes.size(); ++p) {
     const MortarNode& node = law.nodes[p];
     const Mat3& frame = law.frames[p];
@@ -172,7 +176,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
       for (const Weight& w : *side)
         for (int j = 0; j < 3; ++j) {
           const int column = columns.of(3 * w.node + j);
-          if (column < 0) continue;
+          if (column < 0 || node.mirrored[static_cast<std::size_t>(j)]) continue;
           into.L.add_block(row, column, Vec3(w.of * frame.row(j).transpose()));
           if (acts) weights.add(column, own_row + j, w.of);
         }
@@ -242,7 +246,7 @@ void add_mortar_matrices(const SurfaceContact& contact, const MortarLaw& law, co
         const MortarNode& node = law.nodes[at];
         const Mat3& frame = law.frames[at];
         const double da = change.dD[i];
-        const Vec3 dv = frame.transpose() * (v - da * slip[at]) / node.area;
+        const Vec3 dv = frame.transpose() * (node.within_mirrors(v) - da * slip[at]) / node.area;
         const double dg = node.normal.dot(jump - da * node.jump) / node.area;
         into.L.add_block(first_row + 3 * p, column, Vec3(dg, dv[1], dv[2]));
         if (acts) area_changes[at][column] += da / node.area;

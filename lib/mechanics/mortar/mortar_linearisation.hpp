@@ -23,7 +23,7 @@ struct MortarLaw {
 };
 
 // Entries of a sparse matrix. Those of the same place are summed up in their order.
-class Entries {
+class SparseEntries {
  public:
   void add(int row, int column, double value) { list_.emplace_back(row, column, value); }
   template <class Block>
@@ -42,9 +42,9 @@ class Entries {
 };
 
 struct MortarMatrices {
-  Entries L;  // (3 rows, columns)
-  Entries G;  // (columns, 3 rows): forces of local reactions
-  Entries C;  // (columns, columns)
+  SparseEntries L;  // (3 rows, columns)
+  SparseEntries G;  // (columns, 3 rows): forces of local reactions
+  SparseEntries C;  // (columns, columns)
 };
 
 // wanted: by candidate, whether it has a row. bonds: by candidate, global; empty: none. x0:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <set>
 
 #include "core/tensor/principal.hpp"
@@ -134,13 +135,44 @@ SurfaceContact self_contact(const std::string& name, double mu, const Mesh& mesh
   return contact;
 }
 
+void find_mirrors(SurfaceContact& contact, const Mesh& mesh, const std::vector<char>& held) {
+  contact.mirrors.assign(contact.nodes.size(), {});
+  bool any = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = [&](int node) {
+      return mesh.X[static_cast<std::size_t>(node)][axis];
+    };
+    const auto [low, high] = std::ranges::minmax(contact.all_nodes | std::views::transform(at));
+    const double near = 1e-6 * contact.reach;
+    for (const double plane : {low, high}) {
+      const auto is_on_it = [&](int node) {
+        return std::abs(at(node) - plane) <= near;
+      };
+      const auto may_be_mirrored = [&](int node) {
+        return !is_on_it(node) || held[static_cast<std::size_t>(3 * node + axis)];
+      };
+      const auto has_nodes_there = [&](const std::vector<QuadNodes>& side) {
+        return std::ranges::any_of(
+            side, [&](const QuadNodes& facet) { return std::ranges::any_of(facet, is_on_it); });
+      };
+      if (high - low <= near || !std::ranges::all_of(contact.all_nodes, may_be_mirrored) ||
+          !has_nodes_there(contact.own) || !has_nodes_there(contact.other))
+        continue;
+      for (std::size_t i = 0; i < contact.nodes.size(); ++i)
+        if (is_on_it(contact.nodes[i]))
+          any = contact.mirrors[i][static_cast<std::size_t>(axis)] = true;
+    }
+  }
+  if (!any) contact.mirrors.clear();
+}
+
 // The weighted difference of the two sides: the own side has positive weights, the other negative
 // ones. Of displacements it is the relative motion at this node.
 Vec3 MortarNode::average(const VecX& u) const {
   Vec3 sum = Vec3::Zero();
   for (const auto* side : {&own, &other})
     for (const Weight& w : *side) sum += w.of * position(u, w.node);
-  return sum;
+  return within_mirrors(sum);
 }
 
 Vec3 MortarNode::slip(const VecX& u) const {
@@ -160,7 +192,8 @@ std::vector<Vec3> mortar_normals(const SurfaceContact& contact, const VecX& x) {
     for (int node : f) sum.try_emplace(node, Vec3::Zero()).first->second += inward;
   }
   std::vector<Vec3> normals;
-  for (int node : contact.nodes) normals.push_back(sum.at(node).normalized());
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
+    normals.push_back(contact.within_mirrors(i, sum.at(contact.nodes[i])).normalized());
   return normals;
 }
 
@@ -200,12 +233,15 @@ std::vector<MortarNode> mortar_nodes(const SurfaceContact& contact,
     out.candidate = static_cast<int>(found - contact.nodes.begin());
     out.area = sums.area;
     out.normal = normals[static_cast<std::size_t>(out.candidate)];
+    if (!contact.mirrors.empty())
+      out.mirrored = contact.mirrors[static_cast<std::size_t>(out.candidate)];
     for (const auto& [j, w] : sums.own) out.own.push_back({j, w / sums.area});
     for (const auto& [k, w] : sums.other) out.other.push_back({k, w / sums.area});
     // differences of positions, not sums of products with coordinates far from the origin
     const Vec3 middle = position(x, node);
     for (const auto* side : {&out.own, &out.other})
       for (const Weight& w : *side) out.jump += w.of * (position(x, w.node) - middle);
+    out.jump = out.within_mirrors(out.jump);
     nodes.push_back(std::move(out));
   }
   return nodes;
@@ -258,6 +294,9 @@ std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
     const Mat3 couple = std::abs(w.of) * product(position(x, w.node) - mean) * turn;
     forces.push_back({w.node, w.of * Mat3::Identity() + couple});
   }
+  for (NodalForce& force : forces)
+    for (int axis = 0; axis < 3; ++axis)
+      if (node.mirrored[static_cast<std::size_t>(axis)]) force.per_reaction.col(axis).setZero();
   return forces;
 }
 

@@ -58,6 +58,16 @@ struct SurfaceContact {
   std::vector<int> rank;                     // place along the surface at rest
   std::vector<std::vector<int>> neighbours;  // facets around it, ascending
   bool touches_itself() const { return !rank.empty(); }
+  // By candidate, which axes are across a plane of symmetry that it lies on; empty: none. The other
+  // half of the scene is a mirror image, so a candidate there has no normal, slip or reaction
+  // across the plane.
+  std::vector<std::array<bool, 3>> mirrors = {};
+  Vec3 within_mirrors(std::size_t candidate, Vec3 v) const {
+    if (mirrors.empty()) return v;
+    for (int axis = 0; axis < 3; ++axis)
+      if (mirrors[candidate][static_cast<std::size_t>(axis)]) v[axis] = 0;
+    return v;
+  }
   // Whether a facet of `own` may touch one of `other`, by where they are on the surface.
   bool may_pair(int own_facet, int other_facet) const;
 };
@@ -68,6 +78,10 @@ SurfaceContact surface_contact(const std::string& name, double mu, const Mesh& m
 // The same of one surface that may touch itself.
 SurfaceContact self_contact(const std::string& name, double mu, const Mesh& mesh,
                             const std::vector<Facet>& facets);
+
+// Finds the planes of symmetry: the first or last nodes of the two surfaces along an axis, where
+// supports hold all of them along it. held (3 n): degrees of freedom that do not move
+void find_mirrors(SurfaceContact& contact, const Mesh& mesh, const std::vector<char>& held);
 
 struct Weight {
   int node = 0;
@@ -81,6 +95,12 @@ struct MortarNode {
   Vec3 normal = Vec3::Zero();
   Vec3 jump = Vec3::Zero();
   std::vector<Weight> own, other;
+  std::array<bool, 3> mirrored{};  // axes across which there is no jump, slip or reaction
+  Vec3 within_mirrors(Vec3 v) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (mirrored[static_cast<std::size_t>(axis)]) v[axis] = 0;
+    return v;
+  }
   double gap() const { return normal.dot(jump); }
   Vec3 average(const VecX& u) const;  // of a nodal field (3 n), own side less the other one
   Vec3 slip(const VecX& u) const;     // its part along the surface

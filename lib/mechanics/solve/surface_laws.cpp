@@ -144,7 +144,7 @@ class Linearisation {
 
   // The forces of bonds follow the movements of their nodes. How weights and normals change the
   // opening is left out: of the order of the opening over a facet.
-  void add_bonds(std::size_t s, Entries& C) const {
+  void add_bonds(std::size_t s, SparseEntries& C) const {
     const std::size_t k = state_.contacts.size() + s;
     for (const MortarNode& node : out_.mortar[s].nodes) {
       const auto candidate = static_cast<std::size_t>(node.candidate);

@@ -250,10 +250,23 @@ void refuse_loose(const Scene& scene, const Mesh& mesh, const std::vector<Prescr
 
 }  // namespace
 
+std::vector<char> held_by_supports(const SolveConfig& config, const Mesh& mesh) {
+  std::vector<char> held(3 * mesh.X.size(), 0);
+  for (const SupportConfig& support : config.supports) {
+    const auto set = mesh.node_sets.find(support.on);
+    if (set == mesh.node_sets.end()) continue;  // an error of its own
+    for (int node : set->second)
+      for (Axis axis : support.hold)
+        held[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)] = 1;
+  }
+  return held;
+}
+
 void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
                   const std::vector<Prescribed>& prescribed, const Find& where,
                   std::vector<Error>& errors) {
   const std::size_t before = errors.size();
+  const std::vector<char> held = held_by_supports(config, mesh);
   for (const auto& [name, contact] : config.touching) {
     const std::string key = "contacts." + name;
     if (mesh.type != CellType::hex8 || mesh.section || !mesh.hanging.empty()) {
@@ -267,12 +280,14 @@ void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,
     if (own.empty() || other.empty()) continue;
     if (contact.on == *contact.against) {
       SurfaceContact surface = self_contact(name, contact.friction, mesh, own);
+      find_mirrors(surface, mesh, held);
       refuse_overlap(surface, mesh, key, where, errors);
       take_adhesion(surface, contact, mesh, own, key, where, errors);
       scene.surfaces.push_back(std::move(surface));
       continue;
     }
     SurfaceContact surface = surface_contact(name, contact.friction, mesh, own, other);
+    find_mirrors(surface, mesh, held);
     std::vector<int> others;
     for (const QuadNodes& facet : surface.other)
       others.insert(others.end(), facet.begin(), facet.end());

@@ -30,6 +30,9 @@ Mesh mesh_of_bodies(const SolveConfig& config,
                     std::vector<std::string>* notes = nullptr);
 Mesh joined(const std::vector<std::pair<std::string, Mesh>>& bodies);
 
+// (3 n) whether a support holds a degree of freedom
+std::vector<char> held_by_supports(const SolveConfig& config, const Mesh& mesh);
+
 // Adds scene.surfaces. Errors: a set without facets, surfaces that share nodes, bodies that
 // overlap, a body that only frictionless contact holds.
 void add_surfaces(Scene& scene, const SolveConfig& config, const Mesh& mesh,

@@ -11,6 +11,7 @@
 #include "mechanics/mesh/bounding_box.hpp"
 #include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/section.hpp"
+#include "scene/model/scene_bodies.hpp"
 #include "scene/model/scene_loads.hpp"
 #include "scene/model/solve_config.hpp"
 #include "scene/model/solve_config_io.hpp"
@@ -202,6 +203,7 @@ std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header) {
   const auto solve = recorded_config(header);
   if (!solve) return {};
   std::vector<SurfaceContact> surfaces;
+  const std::vector<char> held = held_by_supports(*solve, header.mesh);
   for (const auto& [name, contact] : solve->touching) {
     const auto nodes = header.contact_nodes.find(name);
     if (nodes == header.contact_nodes.end() || header.mesh.type != CellType::hex8) return {};
@@ -213,6 +215,7 @@ std::vector<SurfaceContact> touching_surfaces(const SolutionHeader& header) {
       surfaces.push_back(surface_contact(name, contact.friction, header.mesh, own, other));
     }
     if (surfaces.back().nodes != nodes->second) return {};
+    find_mirrors(surfaces.back(), header.mesh, held);
   }
   return surfaces;
 }
