@@ -65,12 +65,15 @@ struct Eigen::internal::generic_product_impl<langer::ProductMatrix, Right, Eigen
 
 namespace langer {
 
-VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most) {
+VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most,
+                         double* left) {
   const ProductMatrix matrix(A, b.size());
   Eigen::GMRES<ProductMatrix, Eigen::IdentityPreconditioner> gmres;
   gmres.setTolerance(tolerance).setMaxIterations(most).set_restart(most);
   gmres.compute(matrix);
-  return gmres.solveWithGuess(b, b);
+  const VecX x = gmres.solveWithGuess(b, b);
+  if (left) *left = gmres.error();
+  return x;
 }
 
 }  // namespace langer

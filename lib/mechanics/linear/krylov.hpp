@@ -14,7 +14,8 @@ namespace langer {
 using LinearMap = std::function<VecX(const VecX&)>;
 
 // Solves A x = b by GMRES, for an A close to the identity: it starts from x = b. Ends if |b - A x|
-// <= tolerance |b|, or after `most` products.
-VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most);
+// <= tolerance |b|, or after `most` products. left: receives |b - A x| / |b|
+VecX solve_near_identity(const LinearMap& A, const VecX& b, double tolerance, int most,
+                         double* left = nullptr);
 
 }  // namespace langer

@@ -14,11 +14,6 @@ namespace {
 
 constexpr int left_to_gmres = 4;  // candidates that do something else than in the factor
 
-// across e
-Eigen::Matrix2d across(const Eigen::Vector2d& e) {
-  return Eigen::Matrix2d::Identity() - e * e.transpose();
-}
-
 }  // namespace
 
 bool ContactInTangent::serves(const std::vector<RigidContact>& contacts) {
@@ -94,24 +89,9 @@ void ContactInTangent::linearise_at(const ContactState& state, bool with_frames)
   }
 }
 
-// What it does, and along which direction it slips, by its reaction and position; of frictionless
-// contact slip is all that is closed.
+// A candidate that cannot move along its normal stays open.
 void ContactInTangent::judge(Candidate& c, const Vec3& r, const Vec3& x) const {
-  const double A = r[0] - rho_ * x[0];
-  c.status = ContactStatus::open;
-  c.k = 0;
-  c.e.setZero();
-  if (!(A > 0) || c.G(0, 0) < 1e-6) return;
-  c.status = ContactStatus::slip;
-  if (c.mu == 0) return;
-  const Eigen::Vector2d s = r.tail<2>() - rho_ * x.tail<2>();
-  if (s.norm() <= c.mu * A) {
-    c.status = ContactStatus::stick;
-    return;
-  }
-  const double share = std::min(c.mu * A / s.norm(), 1 - 1e-6);
-  c.e = s.normalized();
-  c.k = share * rho_ / (1 - share);
+  c.law = c.G(0, 0) < 1e-6 ? LawStatus{} : law_status(r, x, c.mu, rho_);
 }
 
 void ContactInTangent::turn_own_columns(const Candidate& c, std::vector<double>& values) const {
@@ -167,10 +147,10 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
   VecX y = VecX::Zero(pattern_.n);
   is_given.assign(static_cast<std::size_t>(pattern_.n), 0);
   for (const Candidate& c : candidates_) {
-    if (c.status == ContactStatus::open) continue;
+    if (c.law.status == ContactStatus::open) continue;
     y[c.first] = -c.q[0] / c.G(0, 0);
     is_given[c.first] = 1;
-    if (c.status != ContactStatus::stick || c.n == 1) continue;
+    if (c.law.status != ContactStatus::stick || c.n == 1) continue;
     const MatX S = c.T.bottomRightCorner<2, 2>() * c.G.block(1, 1, 2, c.n - 1);
     const Eigen::Vector2d left =
         c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * (c.G.block<2, 1>(1, 0) * y[c.first]);
@@ -185,10 +165,11 @@ VecX ContactInTangent::given(std::vector<char>& is_given) const {
 std::vector<double> ContactInTangent::matrix(bool with_friction, bool with_contact) const {
   std::vector<double> values = K_;
   for (const Candidate& c : candidates_) {
-    if (!with_contact || c.status != ContactStatus::slip || c.n == 1) continue;
+    if (!with_contact || c.law.status != ContactStatus::slip || c.n == 1) continue;
     Mat3 follows = -c.D;
     if (with_friction && c.friction())
-      follows.bottomRightCorner<2, 2>() += c.k * across(c.e) * c.T.bottomRightCorner<2, 2>();
+      follows.bottomRightCorner<2, 2>() +=
+          c.law.k * across_direction(c.law.e) * c.T.bottomRightCorner<2, 2>();
     const Mat3 own = c.G.transpose() * (0.5 * (follows + follows.transpose())) * c.G;
     for (int j = 1; j < c.n; ++j)
       for (int i = j; i < c.n; ++i) values[pattern_.column_start[c.first + j] + i - j] += own(i, j);
@@ -225,20 +206,21 @@ VecX ContactInTangent::times(const VecX& y) const {
 // s: of its reaction, where the body moves by y; constants 0: the part that is linear in y
 Vec3 ContactInTangent::change_of(const Candidate& c, const VecX& y, const VecX& Ky,
                                  double constants) const {
-  if (c.status == ContactStatus::open) return -constants * c.present;
+  if (c.law.status == ContactStatus::open) return -constants * c.present;
   const auto own = y.segment(c.first, c.n);
   const Vec3 moved = c.G.leftCols(c.n) * own;
   const Vec3 follows = c.D * moved;
   const VecX left = Ky.segment(c.first, c.n) - constants * rhs_.segment(c.first, c.n);
-  if (c.status == ContactStatus::stick) return c.G.leftCols(c.n) * left - follows;
+  if (c.law.status == ContactStatus::stick) return c.G.leftCols(c.n) * left - follows;
   Vec3 s = Vec3::Zero();
   Vec3 by_normal(1, 0, 0);
   s.tail<2>() = -constants * c.present.tail<2>();
   if (c.friction()) {
     const Eigen::Vector2d x_t =
         constants * c.q.tail<2>() + c.T.bottomRightCorner<2, 2>() * moved.tail<2>();
-    s.tail<2>() += constants * c.mu * c.present[0] * c.e - c.k * across(c.e) * x_t;
-    by_normal.tail<2>() = c.mu * c.e;
+    s.tail<2>() +=
+        constants * c.mu * c.present[0] * c.law.e - c.law.k * across_direction(c.law.e) * x_t;
+    by_normal.tail<2>() = c.mu * c.law.e;
   }
   const Vec3 n = c.G.col(0);
   return s + by_normal * ((left[0] - n.dot(s + follows)) / n.dot(by_normal));
@@ -249,9 +231,9 @@ VecX ContactInTangent::missing(const VecX& y, const VecX& Ky, double constants,
                                const std::vector<char>& is_given) const {
   VecX out = constants * rhs_ - Ky;
   for (const Candidate& c : candidates_) {
-    if (c.status == ContactStatus::stick) continue;
+    if (c.law.status == ContactStatus::stick) continue;
     Vec3 force = change_of(c, y, Ky, constants);
-    if (c.status == ContactStatus::slip)
+    if (c.law.status == ContactStatus::slip)
       force += c.D * (c.G.leftCols(c.n) * y.segment(c.first, c.n));
     out.segment(c.first, c.n) += c.G.leftCols(c.n).transpose() * force;
   }
@@ -304,7 +286,7 @@ ContactInTangent::Answer ContactInTangent::answer_of(const Solved& solved,
   for (auto& of_contact : out.r)
     std::fill(of_contact.begin(), of_contact.end(), Vec3(Vec3::Zero()));
   for (const Candidate& c : candidates_) {
-    if (c.status == ContactStatus::open) continue;
+    if (c.law.status == ContactStatus::open) continue;
     Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     if (!(r[0] > 0)) continue;
     const double tangential = r.tail<2>().norm();
@@ -330,15 +312,16 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   int solutions = 0;
   bool factored = false;
   for (int step = 0; step < 20; ++step) {
-    const auto differ = std::count_if(candidates_.begin(), candidates_.end(),
-                                      [](const Candidate& c) { return c.status != c.factored; });
+    const auto differ =
+        std::count_if(candidates_.begin(), candidates_.end(),
+                      [](const Candidate& c) { return c.law.status != c.factored; });
     const bool anew = !factored || differ > left_to_gmres;
     if (anew) {
       if (!factorize(matrix(true))) return std::nullopt;
       factored = true;
       friction_in_factor_ = false;
       for (Candidate& c : candidates_) {
-        c.factored = c.status;
+        c.factored = c.law.status;
         friction_in_factor_ = friction_in_factor_ || c.friction();
       }
     }
@@ -361,11 +344,11 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
 int ContactInTangent::changes(const Solved& solved) {
   int some = 0;
   for (Candidate& c : candidates_) {
-    const ContactStatus before = c.status;
+    const ContactStatus before = c.law.status;
     const Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     const Vec3 x = c.q + c.T * (c.G.leftCols(c.n) * solved.y.segment(c.first, c.n));
     judge(c, before == ContactStatus::open ? Vec3(Vec3::Zero()) : r, x);
-    some += c.status != before;
+    some += c.law.status != before;
   }
   return some;
 }
@@ -378,7 +361,7 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve_again(const Cont
   bool friction = false;
   for (Candidate& c : candidates_) {
     judge(c, c.present, c.q);
-    if (c.status != c.factored) return std::nullopt;
+    if (c.law.status != c.factored) return std::nullopt;
     friction = friction || c.friction();
   }
   int solutions = 0;
@@ -397,7 +380,8 @@ std::vector<double> ContactInTangent::constrained(
   K_ = K;
   turn(K_);
   for (Candidate& c : candidates_)
-    c.status = status[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)];
+    c.law.status =
+        status[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)];
   return matrix(false);
 }
 

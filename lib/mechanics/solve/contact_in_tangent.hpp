@@ -5,12 +5,11 @@
 //   K d = rhs + sum N (s + D N^T d)
 // N: frame (n, t1, t2) of a candidate, D: turning of its reaction (contact/contact.hpp).
 // The rows of each candidate are turned into its frame. What the law says of them depends on its
-// state, which follows from r and x (gap and slip) as in contact/alart_curnier.hpp:
+// state (solve/law_status.hpp):
 //   open     r = 0: rows like any other
 //   closed   the movement along n is known and leaves the system; r_n is what its row lacks
 //   sticks   the same of all three movements
-//   slips    r_t = mu r_n e - k (1 - e e^T) x_t,   e the direction of r_t - rho x_t,
-//            k = rho p / (1 - p),  p = mu (r_n - rho x_n) / |r_t - rho x_t|
+//   slips    r_t = mu r_n e - k (1 - e e^T) x_t
 // The part of slip with k is symmetric and joins the matrix. That with r_n is not; GMRES finds it,
 // with the factor as preconditioner. States are judged anew from each answer until none changes
 // (semismooth Newton): few changes are left to GMRES, many need another factor. Closed gaps are
@@ -25,6 +24,7 @@
 #include "mechanics/linear/linear.hpp"
 #include "mechanics/linear/mixed_tangent.hpp"
 #include "mechanics/solve/contact_state.hpp"
+#include "mechanics/solve/law_status.hpp"
 
 namespace langer {
 
@@ -80,10 +80,9 @@ class ContactInTangent {
     // of this solution
     Mat3 frame = Mat3::Identity();
     Vec3 q = Vec3::Zero(), present = Vec3::Zero();  // local
-    ContactStatus status = ContactStatus::open, factored = ContactStatus::open;
-    Eigen::Vector2d e = Eigen::Vector2d::Zero();
-    double k = 0;
-    bool friction() const { return mu > 0 && status == ContactStatus::slip; }
+    LawStatus law;
+    ContactStatus factored = ContactStatus::open;
+    bool friction() const { return mu > 0 && law.status == ContactStatus::slip; }
   };
   struct Solved {
     VecX y, Ky;

@@ -104,12 +104,13 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   settled_ = true;
   bool old = false;
   for (int step = 0; step < 30; ++step) {
-    const auto differ = std::count_if(candidates_.begin(), candidates_.end(),
-                                      [](const Candidate& c) { return c.status != c.factored; });
+    const auto differ =
+        std::count_if(candidates_.begin(), candidates_.end(),
+                      [](const Candidate& c) { return c.law.status != c.factored; });
     const bool anew = !mixed.solver().preconditioned() || differ > few || old;
     if (anew) {
       if (!precondition(mixed)) return std::nullopt;
-      for (Candidate& c : candidates_) c.factored = c.status;
+      for (Candidate& c : candidates_) c.factored = c.law.status;
     }
     const int before = last.products;
     const auto solved = solution(mixed, relative, last, dp);

@@ -15,6 +15,15 @@ std::optional<VecX> ContactStep::correction() {
   VecX rhs = free_residual(state_);
   if (!border_.arc()) rhs -= state_.on_free_rows(body_.K_du());
   if (border_.active()) border_.update();
+  if (factors_.bodies_in_tangent() && !border_.arc() && !border_.active()) {
+    if (std::optional<VecX> du = solve_with_bodies(rhs)) {
+      factors_.of_accepted = false;
+      factors_.serves = body_.formulation() != Formulation::displacement;
+      if (factors_.serves) body_.keep_dilatations();
+      return du;
+    }
+    factors_.condense_bodies();
+  }
   std::optional<VecX> du;
   if (factors_.contact_in_tangent())
     du = solve_with_contact(rhs);
@@ -42,6 +51,7 @@ std::optional<VecX> ContactStep::correction_again() {
     return std::nullopt;
   again_ = true;
   const VecX rhs = free_residual(state_) + state_.on_free_rows(body_.dilatation_residual());
+  if (factors_.bodies_in_tangent()) return solve_with_bodies(rhs);
   if (factors_.contact_in_tangent()) return solve_with_contact(rhs);
   return solve_condensed(rhs);
 }
@@ -90,6 +100,30 @@ std::optional<VecX> ContactStep::solve_with_contact(const VecX& rhs) {
     }
   }
   state_.cost.contact -= state_.cost.factor - factor_before;
+  if (!answer) return std::nullopt;
+  next_.r = std::move(answer->r);
+  state_.cost.sweeps += answer->solutions;
+  return with_prescribed_dofs(answer->move);
+}
+
+// The same of deformable surfaces.
+std::optional<VecX> ContactStep::solve_with_bodies(const VecX& rhs) {
+  BodiesInTangent& contact = *factors_.bodies_in_tangent();
+  const double factored_before = contact.seconds_of_factors();
+  std::optional<BodiesInTangent::Answer> answer;
+  {
+    const Stopwatch watch(state_.cost.contact);
+    const std::vector<Vec3> none;
+    const ContactState state = state_.contact_state(none, none);
+    if (again_)
+      answer = contact.solve_again(state, state_.surfaces, now_.u, rhs);
+    else
+      answer = contact.solve(state, state_.surfaces, now_.u, state_.remaining_prescribed(trial_.u),
+                             body_.K(), rhs);
+  }
+  const double factored = contact.seconds_of_factors() - factored_before;
+  state_.cost.factor += factored;
+  state_.cost.contact -= factored;
   if (!answer) return std::nullopt;
   next_.r = std::move(answer->r);
   state_.cost.sweeps += answer->solutions;

@@ -3,7 +3,8 @@
 //   whole tangent, no contact        K du = rhs
 //   contact condensed                Schur complement of K on the candidates; the contact law is
 //                                    solved on it (contact_linearisation.hpp)
-//   contact in the tangent itself    rows of closed contacts join K (contact_in_tangent.hpp)
+//   contact in the tangent itself    rows of closed contacts join K (contact_in_tangent.hpp,
+//                                    bodies_in_tangent.hpp)
 // A factor of an earlier state of the increment serves for cheaper corrections (modified Newton).
 #pragma once
 
@@ -38,6 +39,7 @@ class ContactStep {
 
  private:
   std::optional<VecX> solve_with_contact(const VecX& rhs);
+  std::optional<VecX> solve_with_bodies(const VecX& rhs);
   std::optional<VecX> solve_condensed(const VecX& rhs);
   std::optional<ContactChange> change_of_contact(const VecX& rhs, LinearSolver::Half& half);
   std::optional<VecX> move_with_contact(const VecX& rhs);

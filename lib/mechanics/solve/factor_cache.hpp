@@ -8,6 +8,7 @@
 
 #include <memory>
 
+#include "mechanics/solve/bodies_in_tangent.hpp"
 #include "mechanics/solve/border.hpp"
 #include "mechanics/solve/increment_state.hpp"
 
@@ -32,6 +33,15 @@ class FactorCache {
   // The factor of the body, or where contact stands in its tangent a second one without it.
   TangentFactor& condensed_factor();
   bool contact_in_tangent() const { return factor.in_tangent() != nullptr; }
+  // Contact of deformable surfaces in the tangent; nullptr: condensed.
+  BodiesInTangent* bodies_in_tangent() const {
+    if (bodies_condensed_) return nullptr;
+    return bodies_.get();
+  }
+  // In the rest of this increment.
+  void condense_bodies() { bodies_condensed_ = true; }
+  long factorizations() const;
+  LinearSolver::Size size() const { return bodies_ ? bodies_->size() : factor.size(); }
   double cost_ratio() const;  // of a correction with a new tangent in units of one with the last
   // candidates that an increment from a state to t begins with (solve/candidate_levels.hpp)
   int level_of_increment(const BodyState& from, double t, double last_travel) const;
@@ -46,6 +56,8 @@ class FactorCache {
   IncrementState& state_;
   const Border& border_;
   std::unique_ptr<TangentFactor> second_factor_;
+  std::unique_ptr<BodiesInTangent> bodies_;
+  bool bodies_condensed_ = false;
 };
 
 }  // namespace langer

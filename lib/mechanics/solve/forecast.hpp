@@ -39,14 +39,15 @@ struct Forecast {
 double forecast_bytes(const LinearSolver::Size& size);
 
 // How corrections are found. reuses: with a tangent that is there already, too; in_tangent: contact
-// stands in it (Increment::contact_in_tangent); mixed: without a factor, none otherwise; in_motion:
-// with inertia, in increments that the waves set; surfaces: CPU seconds of the contact of
-// deformable surfaces in an iteration
+// stands in it (Increment::contact_in_tangent, bodies_in_tangent); mixed: without a factor, none
+// otherwise; in_motion: with inertia, in increments that the waves set; surfaces: CPU seconds of
+// the contact of deformable surfaces in an iteration, without what solutions or a condensed law
+// take; surface_nodes: on both sides of those
 struct CorrectionsBy {
   bool reuses = false, in_tangent = false;
   const MixedSolver* mixed = nullptr;
   bool in_motion = false;
-  double surfaces = 0;
+  double surfaces = 0, surface_nodes = 0;
 };
 
 // Of a body divided among ranks: the memory of all, the time of each; all of them call it.

@@ -26,7 +26,7 @@ Increment::Increment(Assembler& equilibrium, std::vector<RigidContact> contacts,
 
 Increment::Cost Increment::cost() const {
   Cost cost = state_.cost;
-  cost.factorizations = factors_.factor.counts().factorizations;
+  cost.factorizations = factors_.factorizations();
   return cost;
 }
 

@@ -118,8 +118,9 @@ class Increment {
   bool factorize_accepted() { return factors_.factorize_accepted(); }
   TangentFactor& condensed_factor() { return factors_.condensed_factor(); }
   const LinearSolver& linear() const { return factors_.factor.linear(); }  // none where iterative()
-  LinearSolver::Size size() const { return factors_.factor.size(); }
+  LinearSolver::Size size() const { return factors_.size(); }
   bool contact_in_tangent() const { return factors_.contact_in_tangent(); }
+  bool bodies_in_tangent() const { return factors_.bodies_in_tangent() != nullptr; }
   bool iterative() const { return factors_.factor.iterative(); }
   const MixedSolver* mixed() const {
     if (const MixedTangent* mixed = factors_.factor.mixed()) return &mixed->solver();
