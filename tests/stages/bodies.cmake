@@ -86,9 +86,16 @@ foreach(line "<contact name=\"contact_of_pad\" type=\"sliding-elastic\" surface_
 endforeach()
 
 # what is refused, with the way out
-run(2 ${BIN}/langer-solve scene.yaml -o none.h5 --set accuracy=1%)
-expect_said("expected estimate: refinement, and shorter cells by hand")
+run(2 ${BIN}/langer-solve scene.yaml -o none.h5 --set accuracy=1% --set bodies.pad.mesh.geometry.block.divisions=[5,4,4])
+expect_said("numbers that are 1 or multiples of 4")
 run(2 ${BIN}/langer-solve scene.yaml -o none.h5 --set estimate=recovery)
 expect_said("expected refinement or none")
 run(2 ${BIN}/langer-solve scene.yaml -o none.h5 --set bodies.pad.mesh.geometry.block.divisions=[5,4,4])
 expect_said("numbers that are 1 or multiples of 4")
+
+# cells of both bodies until the bar of the force is within what was asked for
+run(0 ${BIN}/langer-solve scene.yaml -o within.h5 --set accuracy=8% --quiet --set "sensitivity=[]" --set "path={steps: 4}" --json)
+string(REGEX MATCH "\"accuracy_percent\": ([0-9.e+-]+)" found "${said}")
+if(NOT CMAKE_MATCH_1 OR CMAKE_MATCH_1 GREATER 8)
+  message(FATAL_ERROR "asked for 8 %, ended with ${CMAKE_MATCH_1} % and exit code 0")
+endif()

@@ -208,6 +208,23 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
   return replaced;
 }
 
+// Of several bodies: the config's own cells, whose estimate decides. All bodies get shorter cells
+// together.
+void choose_for_bodies(SolveConfig& config, ChosenLevel& chosen) {
+  double cells = 0;
+  for (const auto& [name, body] : config.bodies) {
+    const std::array<int, 3>& n = std::get<Block>(body.mesh.geometry).divisions;
+    chosen.bodies[name] = n;
+    cells += 1.0 * n[0] * n[1] * n[2];
+  }
+  chosen.finest = std::min(1.0, std::cbrt(cells / most_hex8));
+  chosen.level = {CellType::hex8, 1, config.path.largest_increment(), 0, false};
+  chosen.shown = false;
+  chosen.words = fmt::format("{:g} % wanted: {}", chosen.wanted, in_words(chosen.level));
+  if (!config.estimate || config.estimate == EstimateBy::automatic)
+    config.estimate = EstimateBy::refinement;
+}
+
 }  // namespace
 
 const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
@@ -226,6 +243,10 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
     chosen.wanted = *percent_of(config.accuracy->within);
   } else {
     chosen.wanted = by_name[static_cast<int>(*config.fidelity)];
+  }
+  if (!config.bodies.empty()) {
+    choose_for_bodies(config, chosen);
+    return chosen;
   }
   const bool may_be_cut =
       !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
@@ -384,7 +405,7 @@ std::string Accuracy::reason_too_expensive(const std::string& level, double cell
 
 std::string Accuracy::reason_too_expensive(const AccuracyLevel& level) const {
   const SolveConfig config = with(level);
-  return reason_too_expensive(in_words(level), n_cells(config.mesh->geometry),
+  return reason_too_expensive(in_words(level), n_cells(*chosen_, level),
                               [&] { return level_cost(config, material_, where_); });
 }
 

@@ -17,6 +17,7 @@
 // were 0.4 % (make accuracy). The constants are in accuracy/refinement/constants.hpp.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ struct ChosenLevel {
   std::string words;
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
+  // of a scene of several bodies, in place of `written`: numbers of cells along each axis
+  std::map<std::string, std::array<int, 3>> bodies = {};
   bool cut = false;  // cells, where the error comes from (accuracy/refinement/adaptive_cells.hpp)
 };
 // Puts the level's cells, increments and symmetry into the config, and the cells to where the
@@ -94,7 +97,9 @@ double percent_at(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& e
 AccuracyLevel finest_level(const ChosenLevel& chosen);
 
 AccuracyLevel finest_at_once(const ChosenLevel& chosen);  // the most that finer_level takes
-double n_cells(const Geometry& geometry);                 // of numbers_of_cells, without symmetry
+// of numbers_of_cells, without symmetry; at the level: of the chosen geometry or bodies
+double n_cells(const Geometry& geometry);
+double n_cells(const ChosenLevel& chosen, const AccuracyLevel& level);
 
 // without an error that would say which: cells of 0.7 times the length; nothing where these would
 // be shorter than the finest

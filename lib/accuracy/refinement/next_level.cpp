@@ -41,12 +41,33 @@ void put_length(const ChosenLevel& chosen, double length, Geometry& geometry) {
   }
 }
 
+// Numbers of cells longer by a factor: 1, or a multiple of 4, which has coarser meshes.
+std::array<int, 3> divisions_with(const std::array<int, 3>& written, double length) {
+  std::array<int, 3> n = written;
+  for (int& along : n)
+    if (along > 1)
+      along = 4 * std::max(1, static_cast<int>(std::ceil(along / (4 * length) - 1e-9)));
+  return n;
+}
+
+double cells_with_length(const ChosenLevel& chosen, double length) {
+  if (chosen.bodies.empty()) {
+    Geometry geometry = chosen.written;
+    put_length(chosen, length, geometry);
+    return n_cells(geometry);
+  }
+  double cells = 0;
+  for (const auto& [name, written] : chosen.bodies) {
+    const std::array<int, 3> n = divisions_with(written, length);
+    cells += 1.0 * n[0] * n[1] * n[2];
+  }
+  return cells;
+}
+
 // the shortest cells of a next level, in those of this one
 double shortest_at_once(const ChosenLevel& chosen) {
   const auto cells_with = [&](double factor) {
-    Geometry geometry = chosen.written;
-    put_length(chosen, factor * chosen.level.edge, geometry);
-    return n_cells(geometry);
+    return cells_with_length(chosen, factor * chosen.level.edge);
   };
   const double most = most_cells_more * cells_with(1);
   const double least = chosen.finest / chosen.level.edge;
@@ -63,15 +84,24 @@ double n_cells(const Geometry& geometry) {
   return cells;
 }
 
+double n_cells(const ChosenLevel& chosen, const AccuracyLevel& level) {
+  return cells_with_length(chosen, level.edge);
+}
+
 void put(const ChosenLevel& chosen, SolveConfig& config) {
   const AccuracyLevel& level = chosen.level;
-  put_length(chosen, level.edge, config.mesh->geometry);
+  for (const auto& [name, written] : chosen.bodies)
+    std::get<Block>(config.bodies.at(name).mesh.geometry).divisions =
+        divisions_with(written, level.edge);
+  if (chosen.bodies.empty()) {
+    put_length(chosen, level.edge, config.mesh->geometry);
+    config.mesh->cells = level.cells;
+  }
   const double first = config.path.first_increment();
   if (level.step != config.path.largest_increment()) config.path.use_increment(level.step);
   if (config.path.seconds)
     config.path.first =
         std::min(first, level.step);  // its error decides: longer ones are begun again
-  config.mesh->cells = level.cells;
 }
 
 AccuracyLevel finest_at_once(const ChosenLevel& chosen) {
@@ -114,9 +144,7 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
   finer.step *= step;
   // The numbers of elements of a family are multiples: reduce the size until they change.
   const auto cells_of = [&](double length) {
-    Geometry geometry = chosen.written;
-    put_length(chosen, length, geometry);
-    return n_cells(geometry);
+    return cells_with_length(chosen, length);
   };
   if (edge < 1) {
     const double now = cells_of(chosen.level.edge);

@@ -78,6 +78,8 @@ void expand_bodies(SolveConfig& config, Tree& tree) {
     append_list(name, body.supports, from, "supports", config.supports, tree);
     append_list(name, body.loads, from, "loads", config.loads, tree);
   }
+  const bool by_default = !config.estimate || config.estimate == EstimateBy::automatic;
+  if (by_default && (config.accuracy || config.fidelity)) config.estimate = EstimateBy::refinement;
   if (config.estimate != EstimateBy::refinement) config.estimate = EstimateBy::none;
   config.stability = StabilityCheck::off;
   config.symmetry = SymmetryChoice::none;

@@ -479,7 +479,8 @@ struct SolveConfig {
     if (accuracy && fidelity)
       found.push_back({"fidelity", "found together with accuracy", "one of the two", ""});
     const bool numbers = !bodies.empty() || (mesh && has_numbers_of_cells(mesh->geometry));
-    if (estimate == EstimateBy::refinement) complain_of_divisions(found);
+    if (estimate == EstimateBy::refinement || !key_of_accuracy().empty())
+      complain_of_divisions(found);
     std::string other_mesh = "no mesh here";
     if (mesh) other_mesh = "a mesh whose cells follow from no numbers of this config";
     const char* laid_out =
@@ -583,8 +584,8 @@ struct SolveConfig {
                        "mortar contact of hex27 and tet15 is not there yet"});
     refuse(mesh && is_section(mesh->geometry), "mesh.geometry", "a body with all of its sides");
     refuse(mesh && !mesh->cuts.empty(), "mesh.cuts", "a mesh without cuts");
-    refuse(accuracy.has_value(), "accuracy", "estimate: refinement, and shorter cells by hand");
-    refuse(fidelity.has_value(), "fidelity", "estimate: refinement, and shorter cells by hand");
+    refuse(accuracy && bodies.empty(), "accuracy", "shorter cells by hand");
+    refuse(fidelity && bodies.empty(), "fidelity", "shorter cells by hand");
     const bool by_refinement = estimate == EstimateBy::refinement;
     refuse(by_refinement && in_motion(), "estimate", "none in motion");
     refuse(estimate && !by_refinement && *estimate != EstimateBy::none, "estimate",
@@ -617,21 +618,28 @@ struct SolveConfig {
   }
   // Coarser meshes of several bodies have 3/4 and half of their cells along each axis.
   void complain_of_divisions(std::vector<Complaint>& found) const {
+    if (bodies.empty()) return;
+    std::string cause = "found together with estimate: refinement";
+    if (!key_of_accuracy().empty()) cause = "found together with " + key_of_accuracy();
+    const char* const why = "its coarser meshes have 3/4 and half of the cells of every body";
+    bool any = false;
     for (const auto& [name, body] : bodies) {
       const std::string key = "bodies." + name + ".mesh.geometry";
       const auto* block = std::get_if<Block>(&body.mesh.geometry);
       if (!block) {
-        found.push_back({key, "found together with estimate: refinement", "block", ""});
-        continue;
+        found.push_back({key, cause, "block", ""});
+        return;
       }
       const auto divides = [](int n) {
         return n == 1 || n % 4 == 0;
       };
       if (!std::ranges::all_of(block->divisions, divides))
-        found.push_back({key + ".block.divisions", "found together with estimate: refinement",
-                         "numbers that are 1 or multiples of 4",
-                         "its coarser meshes have 3/4 and half of the cells of every body"});
+        found.push_back(
+            {key + ".block.divisions", cause, "numbers that are 1 or multiples of 4", why});
+      any = any || std::ranges::any_of(block->divisions, [](int n) { return n > 1; });
     }
+    if (!any)
+      found.push_back({"bodies", "found with one cell along every axis", "4 cells or more", why});
   }
   // Inertia together with what knows equilibria only.
   void complain_of_motion(std::vector<Complaint>& found) const {
