@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <ranges>
 #include <set>
 
 #include "core/tensor/principal.hpp"
@@ -142,7 +141,9 @@ void find_mirrors(SurfaceContact& contact, const Mesh& mesh, const std::vector<c
     const auto at = [&](int node) {
       return mesh.X[static_cast<std::size_t>(node)][axis];
     };
-    const auto [low, high] = std::ranges::minmax(contact.all_nodes | std::views::transform(at));
+    const auto ends = std::ranges::minmax(contact.all_nodes, {}, at);
+    const double low = at(ends.min);
+    const double high = at(ends.max);
     const double near = 1e-6 * contact.reach;
     for (const double plane : {low, high}) {
       const auto is_on_it = [&](int node) {
