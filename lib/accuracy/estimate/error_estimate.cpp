@@ -416,16 +416,16 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   PathErrors out;
   // no study stands for these scenes: their meshes show the order themselves
   const bool observes = config.contacts.empty() || !config.touching.empty() || in_family(config);
+  // At the edge of a pad with friction the shear is singular: three meshes may seem to converge
+  // faster than the next ones do. What they differ by counts as scatter, too.
+  const bool rubs = std::ranges::any_of(
+      config.touching, [](const auto& contact) { return contact.second.friction > 0; });
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config);
   const double beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     double order = 1;
-    // At the edge of a pad with friction the shear is singular: three meshes may seem to converge
-    // faster than the next ones do. What they differ by counts as scatter, too.
-    const bool rubs = std::ranges::any_of(
-        config.touching, [](const auto& contact) { return contact.second.friction > 0; });
     if (q.name != "von_mises_max" && !rubs) order = order_of_force(config);
     const auto limit = limit_of(all.meshes_for(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();

@@ -210,19 +210,13 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
 
 // Of several bodies: the config's own cells, whose estimate decides. All bodies get shorter cells
 // together.
-void choose_for_bodies(SolveConfig& config, ChosenLevel& chosen) {
-  double cells = 0;
-  for (const auto& [name, body] : config.bodies) {
-    const std::array<int, 3>& n = std::get<Block>(body.mesh.geometry).divisions;
-    chosen.bodies[name] = n;
-    cells += 1.0 * n[0] * n[1] * n[2];
-  }
-  chosen.finest = std::min(1.0, std::cbrt(cells / most_hex8));
+void choose_for_bodies(const SolveConfig& config, ChosenLevel& chosen) {
+  for (const auto& [name, body] : config.bodies)
+    chosen.bodies[name] = std::get<Block>(body.mesh.geometry).divisions;
   chosen.level = {CellType::hex8, 1, config.path.largest_increment(), 0, false};
+  chosen.finest = std::min(1.0, std::cbrt(n_cells(chosen, chosen.level) / most_hex8));
   chosen.shown = false;
   chosen.words = fmt::format("{:g} % wanted: {}", chosen.wanted, in_words(chosen.level));
-  if (!config.estimate || config.estimate == EstimateBy::automatic)
-    config.estimate = EstimateBy::refinement;
 }
 
 }  // namespace

@@ -143,12 +143,10 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
   finer.edge *= edge;
   finer.step *= step;
   // The numbers of elements of a family are multiples: reduce the size until they change.
-  const auto cells_of = [&](double length) {
-    return cells_with_length(chosen, length);
-  };
   if (edge < 1) {
-    const double now = cells_of(chosen.level.edge);
-    while (finer.edge > chosen.finest && cells_of(finer.edge) <= now) finer.edge *= 0.97;
+    const double now = cells_with_length(chosen, chosen.level.edge);
+    while (finer.edge > chosen.finest && cells_with_length(chosen, finer.edge) <= now)
+      finer.edge *= 0.97;
   }
   finer.step = std::max(finer.step, std::min(shortest_step, chosen.level.step));
   finer.edge = std::max(finer.edge, chosen.finest);

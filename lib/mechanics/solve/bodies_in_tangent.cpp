@@ -46,23 +46,18 @@ std::vector<double> stiffnesses(const Assembler& body,
 
 }  // namespace
 
-std::string BodiesInTangent::why_not(const Assembler& body,
-                                     const std::vector<RigidContact>& contacts,
-                                     const TouchingBodies& bodies) {
-  if (bodies.empty()) return "no bodies touch";
-  if (!contacts.empty()) return "an indenter touches them as well";
-  if (!body.dofs().tie.empty() || !body.mesh().hanging.empty()) return "nodes move as others do";
+bool BodiesInTangent::serves(const Assembler& body, const std::vector<RigidContact>& contacts,
+                             const TouchingBodies& bodies) {
+  if (bodies.empty() || !contacts.empty()) return false;
+  if (!body.dofs().tie.empty() || !body.mesh().hanging.empty()) return false;
   std::set<int> own, other;
   for (const SurfaceContact& surface : bodies.surfaces()) {
-    if (surface.adhesion) return "bodies adhere";
-    if (surface.touches_itself()) return "a surface touches itself";
+    if (surface.adhesion || surface.touches_itself()) return false;
     for (int node : surface.nodes)
-      if (!own.insert(node).second) return "two contacts hold on one node";
+      if (!own.insert(node).second) return false;
     for (const QuadNodes& facet : surface.other) other.insert(facet.begin(), facet.end());
   }
-  for (int node : own)
-    if (other.count(node) > 0) return "a surface is on both sides of contacts";
-  return "";
+  return std::none_of(own.begin(), own.end(), [&](int node) { return other.count(node) > 0; });
 }
 
 BodiesInTangent::BodiesInTangent(const Assembler& body, TouchingBodies& bodies, int threads)
@@ -512,10 +507,7 @@ BodiesInTangent::Answer BodiesInTangent::answer_of(const Step& step,
     const auto at = 3 * static_cast<Eigen::Index>(p);
     Vec3 r = step.r.segment<3>(at);
     if (c.law.status == ContactStatus::open || !(r[0] > 0)) continue;
-    const double tangential = r.tail<2>().norm();
-    const double most = c.mu * r[0];
-    if (tangential > most || (c.friction() && tangential > 0))
-      r.tail<2>() *= most / tangential;  // on the cone, exactly
+    put_on_cone(r, c.mu, c.friction());
     local.segment<3>(at) = r;
   }
   laws_.give_reactions(local, out.r);

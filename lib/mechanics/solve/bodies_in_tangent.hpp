@@ -19,7 +19,6 @@
 #include <Eigen/SparseCore>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "mechanics/assembly/assembler.hpp"
@@ -32,9 +31,10 @@ namespace langer {
 
 class BodiesInTangent {
  public:
-  // "" where it serves
-  static std::string why_not(const Assembler& body, const std::vector<RigidContact>& contacts,
-                             const TouchingBodies& bodies);
+  // Two-sided contact without indenters, bonds, ties or hanging nodes, whose candidates can be told
+  // apart: none belongs to two contacts, none is on the other side of one.
+  static bool serves(const Assembler& body, const std::vector<RigidContact>& contacts,
+                     const TouchingBodies& bodies);
   // refers to the body and its pattern
   BodiesInTangent(const Assembler& body, TouchingBodies& bodies, int threads);
 

@@ -289,10 +289,7 @@ ContactInTangent::Answer ContactInTangent::answer_of(const Solved& solved,
     if (c.law.status == ContactStatus::open) continue;
     Vec3 r = c.present + change_of(c, solved.y, solved.Ky, 1);
     if (!(r[0] > 0)) continue;
-    const double tangential = r.tail<2>().norm();
-    const double most = c.mu * r[0];
-    if (tangential > most || (c.friction() && tangential > 0))
-      r.tail<2>() *= most / tangential;  // on the cone, exactly
+    put_on_cone(r, c.mu, c.friction());
     out.r[static_cast<std::size_t>(c.contact)][static_cast<std::size_t>(c.candidate)] = c.frame * r;
   }
   return out;

@@ -26,11 +26,11 @@ TangentFactor timed_factor(IncrementState& state) {
 // Contact of deformable surfaces in the tangent, where it serves and is cheaper.
 std::unique_ptr<BodiesInTangent> timed_bodies(IncrementState& state, const TangentFactor& factor) {
   const IncrementOptions& options = state.options;
-  if (state.surfaces.empty() || options.contact_by == ContactBy::compliance) return nullptr;
+  if (options.contact_by == ContactBy::compliance) return nullptr;
   if (options.contact_by == ContactBy::by_cost && state.surfaces.nodes().size() < many_nodes)
     return nullptr;
   if (factor.held_by_contact() ||
-      !BodiesInTangent::why_not(state.body, state.contacts, state.surfaces).empty())
+      !BodiesInTangent::serves(state.body, state.contacts, state.surfaces))
     return nullptr;
   const Stopwatch watch(state.cost.analysis);
   return std::make_unique<BodiesInTangent>(state.body, state.surfaces, options.threads);

@@ -119,7 +119,7 @@ class Increment {
   TangentFactor& condensed_factor() { return factors_.condensed_factor(); }
   const LinearSolver& linear() const { return factors_.factor.linear(); }  // none where iterative()
   LinearSolver::Size size() const { return factors_.size(); }
-  bool contact_in_tangent() const { return factors_.contact_in_tangent(); }
+  bool contact_in_tangent() const { return factors_.contact_in_tangent() || bodies_in_tangent(); }
   bool bodies_in_tangent() const { return factors_.bodies_in_tangent() != nullptr; }
   bool iterative() const { return factors_.factor.iterative(); }
   const MixedSolver* mixed() const {

@@ -21,6 +21,12 @@ LawStatus law_status(const Vec3& r, const Vec3& x, double mu, double rho) {
   return out;
 }
 
+void put_on_cone(Vec3& r, double mu, bool slips) {
+  const double tangential = r.tail<2>().norm();
+  const double most = mu * r[0];
+  if (tangential > most || (slips && tangential > 0)) r.tail<2>() *= most / tangential;
+}
+
 Eigen::Matrix2d across_direction(const Eigen::Vector2d& e) {
   return Eigen::Matrix2d::Identity() - e * e.transpose();
 }

@@ -22,6 +22,10 @@ struct LawStatus {
 // rho: of the order of a stiffness [N/mm]
 LawStatus law_status(const Vec3& r, const Vec3& x, double mu, double rho);
 
+// Shortens the tangential part of a reaction that is past Coulomb's cone, and puts that of a
+// candidate that slips exactly on it.
+void put_on_cone(Vec3& r, double mu, bool slips);
+
 // 1 - e e^T
 Eigen::Matrix2d across_direction(const Eigen::Vector2d& e);
 

@@ -77,7 +77,7 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Increment
   const auto* newton = std::get_if<NewtonOptions>(&config.solver);
   CorrectionsBy by;
   by.reuses = newton && newton->reuse_tangent;
-  by.in_tangent = increment.contact_in_tangent() || increment.bodies_in_tangent();
+  by.in_tangent = increment.contact_in_tangent();
   by.mixed = increment.mixed();
   by.in_motion = config.in_motion();
   by.surfaces = seconds_of_surfaces(increment, by.in_motion);
@@ -165,9 +165,8 @@ std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Asse
                                   c.nodes.size(), c.other.size(), friction_in_words(c.mu)));
     }
     if (!scene.contacts.empty() || !scene.surfaces.empty())
-      line("", increment.contact_in_tangent() || increment.bodies_in_tangent()
-                   ? "in the tangent itself"
-                   : "condensed to the candidates");
+      line("", increment.contact_in_tangent() ? "in the tangent itself"
+                                              : "condensed to the candidates");
     line("solver", std::holds_alternative<KinsolOptions>(config.solver)
                        ? "kinsol; counted as newton"
                        : "newton");
