@@ -14,6 +14,13 @@ bool Prescribed::keeps_rate(double before, double now, double next) const {
   return steady({value, factor}) && (!turn || steady(turn->angle));
 }
 
+bool ties_nodes(const Dofs& dofs) {
+  for (std::size_t i = 0; i < dofs.tie.size(); ++i) {
+    if (dofs.tie[i].of != static_cast<int>(i) || !dofs.tie[i].T.isDiagonal(0)) return true;
+  }
+  return false;
+}
+
 Vec3 displacement(const Dofs& dofs, const VecX& u, int node) {
   if (dofs.tie.empty()) return u.segment<3>(3 * node);
   return dofs.tie[node].T * u.segment<3>(3 * dofs.tie[node].of);

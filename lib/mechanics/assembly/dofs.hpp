@@ -88,6 +88,9 @@ struct DofsResult {
 DofsResult number_dofs(int n_nodes, std::vector<Prescribed> prescribed, std::vector<Image> tie = {},
                        const std::vector<HangingNode>& hanging = {});
 
+// Whether any node moves with another one. Nodes on a mirror plane move alone, along the plane.
+bool ties_nodes(const Dofs& dofs);
+
 // of a node, whatever it moves with; u (n)
 Vec3 displacement(const Dofs& dofs, const VecX& u, int node);
 

@@ -285,6 +285,14 @@ std::vector<NodalForce> force_operator(const MortarNode& node, const VecX& x) {
     const Vec3 arm = position(x, w.node) - mean;
     inertia += std::abs(w.of) * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   }
+  // With their mirror images, the masses resist turns about the axis of a plane on their own.
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!node.mirrored[static_cast<std::size_t>(axis)]) continue;
+    const double about_it = inertia(axis, axis);
+    inertia.row(axis).setZero();
+    inertia.col(axis).setZero();
+    inertia(axis, axis) = about_it;
+  }
   const auto product = [](const Vec3& a) {
     Mat3 P;
     P << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;

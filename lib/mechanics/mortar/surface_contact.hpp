@@ -68,6 +68,9 @@ struct SurfaceContact {
       if (mirrors[candidate][static_cast<std::size_t>(axis)]) v[axis] = 0;
     return v;
   }
+  // How many images of these surfaces a symmetric scene has: they are a part of it, and reactions
+  // are the sums over all images. Areas are those of the part.
+  double images = 1;
   // Whether a facet of `own` may touch one of `other`, by where they are on the surface.
   bool may_pair(int own_facet, int other_facet) const;
 };

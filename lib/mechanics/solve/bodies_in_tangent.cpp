@@ -39,7 +39,7 @@ std::vector<double> stiffnesses(const Assembler& body,
       softer = std::min(softer, sum / static_cast<double>(side->size()));
     }
     const double edge = surface.reach / 3;  // the longest
-    out.push_back(softer > 0 ? 2.5 * softer * edge : 1);
+    out.push_back(softer > 0 ? 2.5 * softer * edge * surface.images : 1);
   }
   return out;
 }
@@ -49,7 +49,7 @@ std::vector<double> stiffnesses(const Assembler& body,
 bool BodiesInTangent::serves(const Assembler& body, const std::vector<RigidContact>& contacts,
                              const TouchingBodies& bodies) {
   if (bodies.empty() || !contacts.empty()) return false;
-  if (!body.dofs().tie.empty() || !body.mesh().hanging.empty()) return false;
+  if (ties_nodes(body.dofs()) || !body.mesh().hanging.empty()) return false;
   std::set<int> own, other;
   for (const SurfaceContact& surface : bodies.surfaces()) {
     if (surface.adhesion || surface.touches_itself()) return false;

@@ -7,16 +7,8 @@ namespace langer {
 
 namespace {
 
-// Each node moves alone, in some of its directions: no kind ties a node to another.
-bool only_holds(const Dofs& dofs) {
-  for (std::size_t i = 0; i < dofs.tie.size(); ++i) {
-    if (dofs.tie[i].of != static_cast<int>(i) || !dofs.tie[i].T.isDiagonal(0)) return false;
-  }
-  return true;
-}
-
 bool can_be_together(const std::vector<Dofs>& kinds) {
-  return kinds.size() > 1 && std::ranges::all_of(kinds, only_holds);
+  return kinds.size() > 1 && std::ranges::none_of(kinds, ties_nodes);
 }
 
 // Free is what is free in any of the kinds.

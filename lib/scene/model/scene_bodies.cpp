@@ -82,7 +82,6 @@ void expand_bodies(SolveConfig& config, Tree& tree) {
   if (by_default && (config.accuracy || config.fidelity)) config.estimate = EstimateBy::refinement;
   if (config.estimate != EstimateBy::refinement) config.estimate = EstimateBy::none;
   config.stability = StabilityCheck::off;
-  config.symmetry = SymmetryChoice::none;
   config.homogeneous = Homogeneous::off;
 }
 

@@ -151,6 +151,35 @@ bool same_rotation(const RigidContact& a, const RigidContact& b, const Isometry&
                  .norm() <= same_place * std::abs(angle.value);
 }
 
+// The facets of one side by their nodes, in order; those of its image under `g`.
+std::vector<QuadNodes> facet_keys(const std::vector<QuadNodes>& side, const MeshImage* g) {
+  std::vector<QuadNodes> keys = side;
+  for (QuadNodes& key : keys) {
+    for (int& node : key)
+      if (g) node = g->node[static_cast<std::size_t>(node)];
+    std::ranges::sort(key);
+  }
+  std::ranges::sort(keys);
+  return keys;
+}
+
+// Each pair of surfaces is its own image, side by side. A surface that touches itself may do so
+// across a plane of symmetry.
+std::string broken_surfaces(const MeshImage& g, const Scene& scene, const Scene& image) {
+  if (scene.surfaces.size() != image.surfaces.size()) return "the number of surfaces that touch";
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const SurfaceContact &a = scene.surfaces[s], &b = image.surfaces[s];
+    if (a.touches_itself() || b.touches_itself())
+      return fmt::format("the surface of \"{}\", which touches itself,", a.name);
+    if (a.mu != b.mu) return fmt::format("the friction of \"{}\"", a.name);
+    if (a.adhesion != b.adhesion) return fmt::format("the adhesion of \"{}\"", a.name);
+    if (facet_keys(a.own, &g) != facet_keys(b.own, nullptr) ||
+        facet_keys(a.other, &g) != facet_keys(b.other, nullptr))
+      return fmt::format("a surface of \"{}\"", a.name);
+  }
+  return "";
+}
+
 // what keeps b from being the image of a; empty where nothing
 std::string difference(const RigidContact& a, const RigidContact& b, const MeshImage& g,
                        const Isometry& op) {
@@ -208,6 +237,7 @@ SceneImage image_of(const MeshImage& g, const Mesh& mesh, const Scene& scene, co
   found.broken = broken_fibres(g, op, mesh, scene, image);
   if (found.broken.empty()) found.broken = broken_supports(g, scene, image);
   if (found.broken.empty()) found.broken = broken_loads(g, mesh, scene, image);
+  if (found.broken.empty()) found.broken = broken_surfaces(g, scene, image);
   if (found.broken.empty()) found.broken = match_contacts(g, op, scene, image, found.contact);
   return found;
 }

@@ -60,6 +60,18 @@ struct Generator {
   std::vector<int> contact;  // image of each
 };
 
+// Why surfaces that touch each other are solved as a whole; empty: a mirror plane divides them.
+// Facets across a plane or an axis would touch images of others.
+std::string undivided(const Symmetry& g, const Scene& scene) {
+  if (scene.motion) return "surfaces that touch in motion";
+  if (g.signs.prod() > 0) return "surfaces that touch at the axis";
+  for (std::size_t e = 0; e < g.cell.size(); ++e) {
+    if (g.cell[e] == static_cast<int>(e))
+      return "the surfaces that touch: cells cross the plane, which an even number of divisions avoids";
+  }
+  return "";
+}
+
 // by name, each looked for once
 class Found {
  public:
@@ -77,6 +89,7 @@ class Found {
       return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
     };
     SceneImage image = g ? image_in(scene_) : SceneImage{"the mesh", {}};
+    if (image.broken.empty() && !scene_.surfaces.empty()) image.broken = undivided(*g, scene_);
     if (image.broken.empty() && scene_.motion && !keeps_motion(op.signs, *scene_.motion))
       image.broken = "gravity, or the velocity or spin at the beginning";
     if (image.broken.empty() && varied_)
@@ -194,6 +207,53 @@ void ReducedScene::take_part(const Mesh& mesh, const Scene& scene,
     kept.share = static_cast<double>(group.size()) / in_place;
     return kept;
   });
+  take_surfaces(scene);
+}
+
+// Surfaces that touch each other: the facets of kept cells. No cell crosses a plane, so these are
+// the facets all of whose nodes are kept.
+void ReducedScene::take_surfaces(const Scene& scene) {
+  surfaces_ = scene.surfaces;
+  std::map<int, int> kept;  // node of the whole -> of the part
+  for (std::size_t i = 0; i < quotient_.node.size(); ++i)
+    kept[quotient_.node[i]] = static_cast<int>(i);
+  const auto kept_facets = [&](const std::vector<QuadNodes>& side) {
+    std::vector<QuadNodes> out;
+    for (QuadNodes facet : side) {
+      if (!std::ranges::all_of(facet, [&](int node) { return kept.contains(node); })) continue;
+      for (int& node : facet) node = kept.at(node);
+      out.push_back(facet);
+    }
+    return out;
+  };
+  const auto kept_nodes = [&](const std::vector<int>& nodes) {
+    std::vector<int> out;
+    for (int node : nodes)
+      if (kept.contains(node)) out.push_back(kept.at(node));
+    std::ranges::sort(out);
+    return out;
+  };
+  for (const SurfaceContact& whole : surfaces_) {
+    SurfaceContact& part = scene_.surfaces.emplace_back(whole);
+    part.own = kept_facets(whole.own);
+    part.other = kept_facets(whole.other);
+    part.nodes = kept_nodes(whole.nodes);
+    part.all_nodes = kept_nodes(whole.all_nodes);
+    part.images = quotient_.cell_share.front();
+    part.area.clear();
+    part.mirrors.clear();
+    for (int node : part.nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      const auto at = static_cast<std::size_t>(
+          std::ranges::lower_bound(whole.nodes, quotient_.node[n]) - whole.nodes.begin());
+      std::array<bool, 3> across{};
+      if (!whole.mirrors.empty()) across = whole.mirrors[at];
+      for (int k = 0; k < 3; ++k)
+        if (quotient_.tie[n].T(k, k) == 0) across[static_cast<std::size_t>(k)] = true;
+      part.mirrors.push_back(across);
+      if (whole.adhesion) part.area.push_back(quotient_.node_share[n] * whole.area[at]);
+    }
+  }
 }
 
 // A support holds the node that is kept. Directions in which symmetry allows no movement need no
@@ -399,6 +459,7 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   }
   update_turned_families(reduced, record);
   expand_contacts(reduced, record);
+  expand_surfaces(reduced, record);
   if (const auto found = record.scalars.find("weakest_cell");
       found != record.scalars.end() && found->second >= 0)
     found->second = quotient_.cell[static_cast<std::size_t>(found->second)];
@@ -415,21 +476,15 @@ void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     ContactRecord& contact = record.contacts[contacts_[c].name] = {};
-    Vec3 force = Vec3::Zero();
     for (const CandidateImage& image : candidate_[c]) {
       const ContactRecord& kept = reduced.contacts.at(scene_.contacts[image.contact].name);
-      contact.r.push_back(image.T * kept.r[image.of] / candidate_share_[image.contact][image.of]);
-      contact.status.push_back(kept.status[image.of]);
-      contact.gap.push_back(kept.gap[image.of]);
-      force -= contact.r.back();
-      if (kept.beta.empty()) continue;
-      contact.beta.push_back(kept.beta[image.of]);
-      contact.bonded_at.push_back(image.T * kept.bonded_at[image.of]);
-      contact.adhesive.push_back(image.T * kept.adhesive[image.of] /
-                                 candidate_share_[image.contact][image.of]);
-      force -= contact.adhesive.back();
+      const auto of = static_cast<std::size_t>(image.of);
+      append_image(kept, of, image.T, candidate_share_[image.contact][of], contact);
     }
-    if (contacts_.size() < 2) continue;
+    if (contacts_.size() < 2 && surfaces_.empty()) continue;
+    Vec3 force = Vec3::Zero();
+    for (const Vec3& r : contact.r) force -= r;
+    for (const Vec3& pull : contact.adhesive) force -= pull;
     for (int k = 0; k < 3; ++k) {
       const std::string name = "force_" + contacts_[c].name + "_" + "xyz"[k];
       // on a section radial forces of the whole circle add up to nothing
@@ -439,6 +494,42 @@ void ReducedScene::expand_contacts(const StepRecord& reduced, StepRecord& record
         record.scalars[name] = force[k];
       }
     }
+  }
+}
+
+// Adds the image of a candidate: r, status, gap, and its bond. share: how many it stands for.
+void ReducedScene::append_image(const ContactRecord& kept, std::size_t of, const Mat3& T,
+                                double share, ContactRecord& images) {
+  images.r.push_back(T * kept.r[of] / share);
+  images.status.push_back(kept.status[of]);
+  images.gap.push_back(kept.gap[of]);
+  if (kept.beta.empty()) return;
+  images.beta.push_back(kept.beta[of]);
+  images.bonded_at.push_back(T * kept.bonded_at[of]);
+  images.adhesive.push_back(T * kept.adhesive[of] / share);
+}
+
+// The same for surfaces that touch each other. Forces on them are sums over all images.
+void ReducedScene::expand_surfaces(const StepRecord& reduced, StepRecord& record) const {
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const std::string& name = surfaces_[s].name;
+    const ContactRecord& kept = reduced.contacts.at(name);
+    const std::vector<int>& candidates = scene_.surfaces[s].nodes;
+    ContactRecord& contact = record.contacts[name] = {};
+    for (int node : surfaces_[s].nodes) {
+      const Image& image = quotient_.node_image[static_cast<std::size_t>(node)];
+      const auto of = std::ranges::lower_bound(candidates, image.of) - candidates.begin();
+      append_image(kept, static_cast<std::size_t>(of), image.T,
+                   quotient_.node_share[static_cast<std::size_t>(image.of)], contact);
+    }
+    Vec3 force = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      double& component = record.scalars.at("force_" + name + "_" + "xyz"[k]);
+      component *= kept_directions_[k];
+      force[k] = component;
+    }
+    const auto size = record.scalars.find("force_" + name);
+    if (size != record.scalars.end()) size->second = force.norm();
   }
 }
 
@@ -497,6 +588,20 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     for (const auto& [of, candidate] : origin_[c])
       if (const ContactRecord& record = whole.contacts.at(contacts_[of].name); !record.beta.empty())
         bonds.push_back(bond_of(record, static_cast<std::size_t>(candidate)));
+  }
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const ContactRecord& of_whole = whole.contacts.at(surfaces_[s].name);
+    std::vector<Vec3>& r = state.r.emplace_back();
+    std::vector<Bond> bonds;
+    for (int node : scene_.surfaces[s].nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      const auto at =
+          static_cast<std::size_t>(std::ranges::lower_bound(surfaces_[s].nodes, quotient_.node[n]) -
+                                   surfaces_[s].nodes.begin());
+      r.push_back(quotient_.node_share[n] * of_whole.r[at]);
+      if (!of_whole.beta.empty()) bonds.push_back(bond_of(of_whole, at));
+    }
+    if (whole.scalars.contains("adhesion_stored")) state.bonds.push_back(std::move(bonds));
   }
   state.in_bonds = bond_energies(whole);
   return state;

@@ -3,6 +3,7 @@
 //   recognised from  mesh and bodies, and what scene/model/scene_image.hpp looks at: fibres, supports and imposed displacements, indenters and
 //                    their paths; all of them must agree
 //   two indenters    of which one is the other's image: the part has one of them, or half of both; each has its own force in results
+//   two surfaces     that touch each other, of mirror planes that no cell crosses; not in motion, and no surface that touches itself
 //   not recognised   indenters read from a file; planes and axes that are not parallel to the coordinate planes or do not pass
 //                    through the middle of the body
 // The reduced scene finds symmetric equilibria only: it cannot leave them where they become
@@ -71,6 +72,8 @@ class ReducedScene {
     int contact = 0, of = 0;  // of the part's scene
     Mat3 T = Mat3::Identity();
   };
+  static void append_image(const ContactRecord& kept, std::size_t of, const Mat3& T, double share,
+                           ContactRecord& images);
   static ReducedScene of_section(const Mesh& mesh, const Scene& scene);
   void take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
                  const std::vector<std::vector<int>>& contacts);
@@ -80,7 +83,9 @@ class ReducedScene {
                      const std::function<Touch(int contact, int node)>& stands_for);
   void find_turned_families(const Mesh& mesh, const Scene& scene,
                             const std::vector<Symmetry>& group);
+  void take_surfaces(const Scene& scene);
   void expand_contacts(const StepRecord& reduced, StepRecord& record) const;
+  void expand_surfaces(const StepRecord& reduced, StepRecord& record) const;
   void update_turned_families(const StepRecord& reduced, StepRecord& record) const;
 
   Quotient quotient_;
@@ -96,8 +101,9 @@ class ReducedScene {
       candidate_;                                     // by contact and candidate of the whole body
   std::vector<std::vector<double>> candidate_share_;  // by those of the part, as the next
   std::vector<std::vector<std::array<int, 2>>>
-      origin_;                           // itself: contact and candidate of the whole body
-  Vec3 kept_directions_ = Vec3::Ones();  // 0 where the resultant of any symmetric field vanishes
+      origin_;                            // itself: contact and candidate of the whole body
+  std::vector<SurfaceContact> surfaces_;  // of the whole body
+  Vec3 kept_directions_ = Vec3::Ones();   // 0 where the resultant of any symmetric field vanishes
   // cells of the whole body whose first family is along a where they are, turned to the cell of the
   // part
   struct TurnedFamily {

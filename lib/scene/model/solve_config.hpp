@@ -590,8 +590,7 @@ struct SolveConfig {
     refuse(by_refinement && in_motion(), "estimate", "none in motion");
     refuse(estimate && !by_refinement && *estimate != EstimateBy::none, "estimate",
            "refinement or none");
-    refuse(symmetry != SymmetryChoice::automatic && symmetry != SymmetryChoice::none, "symmetry",
-           "none: model a half or a quarter and hold the planes by supports");
+    refuse(symmetry == SymmetryChoice::half_turn, "symmetry", "auto, none or mirror planes");
     refuse(reduce == Reduce::automatic, "reduce", "none");
     refuse(!sensitivity.empty() && in_motion(), "sensitivity", "none in motion");
     const bool rigid_as_well = std::ranges::any_of(

@@ -96,6 +96,10 @@ std::string other_task(const MirrorTask& task, const Identity& theirs,
 
 std::optional<MirrorOperation> operation_between(const Mesh& mesh, const Scene& scene,
                                                  const Scene& image, std::string& why_not) {
+  if (!scene.surfaces.empty()) {
+    why_not = "surfaces that touch each other";
+    return std::nullopt;
+  }
   for (const NamedTurn& op : operations()) {
     auto g = find_image(mesh, op.turn, bounding_box(mesh.X).middle());
     if (!g) continue;

@@ -26,13 +26,14 @@ void record_surfaces(const Increment& increment, StepRecord& record) {
     for (int j = 0; j < 3; ++j) record.scalars["force_" + name + "_" + "xyz"[j]] = on_other[j];
     if (increment.contacts().empty()) record.force_ind += on_other;  // else of the indenters
     record.scalars["force_" + name] = on_other.norm();
+    const double images = increment.surfaces()[s].images;
     double area = 0;
     double pressure = 0;
     for (const MortarNode& node : averages[s]) {
       const Vec3& r = contact.r[static_cast<std::size_t>(node.candidate)];
       if (r.isZero(0)) continue;
-      area += node.area;
-      pressure = std::max(pressure, r.dot(node.normal) / node.area);
+      area += images * node.area;
+      pressure = std::max(pressure, r.dot(node.normal) / (images * node.area));
     }
     record.scalars["contact_area_" + name] = area;
     record.scalars["pressure_max_" + name] = pressure;
