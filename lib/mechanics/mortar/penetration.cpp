@@ -10,6 +10,9 @@ namespace langer {
 
 namespace {
 
+// Nodes of plane models lie on edges of facets: rounding does not hide them.
+constexpr double on_edge = 1e-9;  // of the length of a facet
+
 // The depth of a point below a facet, along its normal; 0 where it is not over it, or above. A
 // facet is two pairs of triangles; the shallower answer of the two is that of the bilinear surface
 // between.
@@ -31,7 +34,7 @@ double depth_below(const QuadNodes& facet, const VecX& x, const Vec3& point, dou
       const double area = normal.dot(b.cross(c));
       const double s = normal.dot(p.cross(c)) / area;
       const double t = normal.dot(b.cross(p)) / area;
-      if (s < 0 || t < 0 || s + t > 1) continue;
+      if (s < -on_edge || t < -on_edge || s + t > 1 + on_edge) continue;
       here = std::max(here, -above);
     }
     least = first == 0 ? here : std::min(least, here);
