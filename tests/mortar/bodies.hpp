@@ -49,7 +49,9 @@ inline BodiesSolution solved(const BodiesScene& scene, const BodiesListener& eac
     out.iterations += report.iterations;
     if (each) each(run, step);
   };
-  out.at = run.follow(listener).at;
+  const RunEnd end = run.follow(listener);
+  CAPTURE(end.path.why);
+  out.at = end.at;
   out.cost = run.increment.cost();
   CHECK(out.at == RunEnd::At::the_end);
   REQUIRE(!out.steps.empty());

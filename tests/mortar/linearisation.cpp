@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/tensor/turn.hpp"
+#include "mechanics/mortar/penetration.hpp"
 #include "mortar/two_surfaces.hpp"
 #include "support/near.hpp"
 
@@ -42,13 +44,13 @@ std::vector<int> every_column(Eigen::Index n) {
   return columns;
 }
 
-}  // namespace
-
-TEST_CASE("gap, slip and forces of two curved surfaces change as their linearisation says") {
-  TwoSurfaces s = curved_surfaces();
+// direction (3 n): the movement of all nodes by which gap, slip and forces are differentiated
+void check_linearisation(const TwoSurfaces& s, const VecX& direction, double tolerance = 1e-7) {
   const Eigen::Index n = s.x.size();
   const VecX x0 = s.x - wave(n, 0.1, 0.4);
-  const std::vector<Vec3> reactions = some_reactions(s.contact.nodes.size());
+  std::vector<Vec3> reactions = some_reactions(s.contact.nodes.size());
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    reactions[i] = s.contact.within_mirrors(i, reactions[i]);
   const std::vector<char> all(s.contact.nodes.size(), 1);
   const auto nodes = mortar_nodes(s.contact, s.x);
   const MortarLaw law = mortar_law(nodes, all, s.x, x0, reactions);
@@ -56,7 +58,6 @@ TEST_CASE("gap, slip and forces of two curved surfaces change as their linearisa
   MortarMatrices matrices;
   add_mortar_matrices(s.contact, law, s.x, x0, every_column(n), 0, matrices);
 
-  const VecX direction = wave(n, 1, 2.1);
   const double step = 1e-6;
   // the frame of the law turns by the smallest rotation with the normal
   const auto law_at = [&](double t) {
@@ -90,14 +91,16 @@ TEST_CASE("gap, slip and forces of two curved surfaces change as their linearisa
   REQUIRE(law.nodes.size() == s.contact.nodes.size());
   const VecX by_differences = (law_at(step) - law_at(-step)) / (2 * step);
   const VecX change = matrices.L.matrix(rows, n) * direction;
-  CHECK((change - by_differences).norm() < 1e-7 * by_differences.norm());
+  CHECK((change - by_differences).norm() < tolerance * by_differences.norm());
   const VecX forces = (forces_at(step) - forces_at(-step)) / (2 * step);
-  CHECK((matrices.C.matrix(n, n) * direction - forces).norm() < 1e-7 * forces.norm());
+  CHECK((matrices.C.matrix(n, n) * direction - forces).norm() < tolerance * forces.norm());
 }
 
 TEST_CASE("forces and moments of two curved surfaces balance, whatever the reactions") {
   const TwoSurfaces s = curved_surfaces();
-  const std::vector<Vec3> reactions = some_reactions(s.contact.nodes.size());
+  std::vector<Vec3> reactions = some_reactions(s.contact.nodes.size());
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    reactions[i] = s.contact.within_mirrors(i, reactions[i]);
   VecX f = VecX::Zero(s.x.size());
   add_mortar_forces(mortar_nodes(s.contact, s.x), s.x, reactions, f);
   Vec3 sum = Vec3::Zero();
@@ -172,4 +175,55 @@ TEST_CASE("weights do not jump where a facet slides off the edge of the other si
     last = weighted;
   }
   CHECK(largest < 0.05);
+}
+
+}  // namespace
+
+TEST_CASE("gap, slip and forces of two curved surfaces change as their linearisation says") {
+  const TwoSurfaces s = curved_surfaces();
+  check_linearisation(s, wave(s.x.size(), 1, 2.1));
+}
+
+TEST_CASE("linearisation of two curved surfaces that both end at a plane of symmetry") {
+  TwoSurfaces s = two_surfaces(
+      {3, 2, -0.13, 2.9, 0, 1.94}, {4, 3, 0, 2.6, 0, 2},
+      [](double x, double z) { return 0.02 + 0.06 * std::sin(x + 0.3) + 0.04 * std::cos(1.3 * z); },
+      [](double x, double z) { return 0.07 * std::sin(1.1 * x + 0.2) - 0.03 * z - 0.03 * z * z; });
+  VecX direction = wave(s.x.size(), 1, 2.1);
+  std::vector<char> held(static_cast<std::size_t>(s.x.size()), 0);
+  for (Eigen::Index i = 2; i < s.x.size(); i += 3) {
+    if (s.x[i] != 0) continue;
+    direction[i] = 0;
+    held[static_cast<std::size_t>(i)] = 1;
+  }
+  for (int node : s.contact.nodes)
+    s.contact.mirrors.push_back({false, false, held[static_cast<std::size_t>(3 * node + 2)] != 0});
+  // The edges of both sides stay on the plane: the facet in the middle of it is covered.
+  const auto facets = mortar_facets(s.contact, s.x, false);
+  CHECK(facets.at(1).D.sum() == near(facets.at(1).area, 1e-12));
+  check_linearisation(s, direction);
+}
+
+TEST_CASE("linearisation of two surfaces that touch with all edges and corners on each other") {
+  const auto height = [](double x, double z) {
+    return 0.06 * std::sin(x + 0.3) + 0.04 * std::cos(1.3 * z);
+  };
+  const TwoSurfaces s = two_surfaces({2, 3, 0, 2, 0, 3}, {4, 5, -1, 3, -1, 4}, height, height);
+  check_linearisation(s, wave(s.x.size(), 1, 2.1), 1e-5);
+}
+
+TEST_CASE("penetration of nodes that lie on the edges of facets is found") {
+  const auto flat = [](double height) {
+    return [height](double, double) {
+      return height;
+    };
+  };
+  const TwoSurfaces s = two_surfaces({1, 1, 0, 1, 0, 1}, {1, 1, 0, 1, 0, 1}, flat(-0.01), flat(0));
+  for (int i = 0; i < 20; ++i) {
+    const Mat3 turn = rotation(Vec3(1, 0.3, 0.5).normalized(), 0.1 + 0.3 * i);
+    VecX x = s.x;
+    for (Eigen::Index n = 0; n < x.size(); n += 3)
+      x.segment<3>(n) = (turn * x.segment<3>(n)).eval() + Vec3(3, 2, 1);
+    CHECK(penetration(s.contact, x) == near(0.01, 1e-9));
+  }
 }

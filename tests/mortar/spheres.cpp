@@ -223,7 +223,7 @@ TEST_CASE("two spheres drawn along each other stick in the middle as Cattaneo an
   draw_spheres(5, 0.03);
 }
 
-// Takes minutes: build/bin/test_mortar -ns -tc="*on fine cells"
+// Takes a minute: build/bin/test_mortar -ns -tc="*on fine cells"
 TEST_CASE("two spheres drawn along each other: the same on fine cells" * doctest::skip()) {
-  draw_spheres(9, 0.011);
+  draw_spheres(10, 0.01);
 }

@@ -30,7 +30,7 @@ const std::string skin_and_pad =
     "supports:\n  - {on: skin_bottom, hold: [x, y, z]}\n";
 
 const std::string path =
-    "path: {first: 0.25, largest: 0.25}\nsolver: {newton: {relative: 1.0e-12}}\n";
+    "path: {first: 0.25, largest: 0.25}\nsolver: {newton: {relative: 1.0e-9}}\n";
 
 BodiesScene with_symmetry(const std::string& text, const std::string& choice) {
   return bodies_scene(text + "symmetry: " + choice + "\n");
@@ -93,10 +93,10 @@ void check_same(const StepRecord& part, const StepRecord& whole, double toleranc
   }
 }
 
-// A facet is projected along its own normal, which next to a plane of symmetry leads across it: by
-// its slope times what is open between the facets. Of the whole it meets facets there, of the part
-// none. What the facets of these coarse meshes leave open makes a difference of 1e-5.
-constexpr double across_planes = 5e-5;
+// A facet is projected along its own normal. Next to a plane of symmetry this leads across it, by
+// the slope of the facet times what is open between the facets, and the part has no facets there:
+// it projects along the plane. On these coarse meshes that makes a difference of 1e-4.
+constexpr double across_planes = 3e-4;
 
 void check_part(const std::string& text, double times, double tolerance = across_planes) {
   const BodiesScene part = with_symmetry(text, "auto");

@@ -359,3 +359,16 @@ TEST_CASE("bodies that overlap at the start, and sets that cover no facet, are r
   CHECK(unknown.find("scene.yaml:7:9: contacts.pad.on: found \"pad_botom\"") != unknown.npos);
   CHECK(refusal(scene("[0, 1, 0]", "pad_bottom")) == "accepted");
 }
+
+TEST_CASE("blocks whose edges lie on each other are pressed and drawn in a few iterations") {
+  const BodiesScene scene =
+      bodies_scene("bodies:\n  low: " + block("[-1, 0, -1]", "[2, 1, 2]", "[7, 2, 7]", soft) +
+                   "\n  up: " + block("[-1, 1, -1]", "[2, 1, 2]", "[7, 2, 7]", soft) +
+                   "\nsupports: [{on: low_bottom, hold: [x, y, z]}]\n"
+                   "loads: [{on: up_top, displacement: {x: 0.1, y: -0.2, z: 0}}]\n"
+                   "contacts: {pad: {on: up_bottom, against: low_top, friction: 0.2}}\n"
+                   "path: {first: 0.25, largest: 0.25}\n");
+  const BodiesSolution solution = solved(scene);
+  CHECK(solution.steps.size() == 4);
+  CHECK(solution.iterations < 12);
+}

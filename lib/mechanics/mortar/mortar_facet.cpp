@@ -53,9 +53,11 @@ Quad<T> quad_of(const QuadNodes& facet, const VecX& x, int first) {
 }
 
 template <class T>
-bool overlap_of(const QuadNodes& own, const QuadNodes& other, const VecX& x, FacetOverlap& out) {
+bool overlap_of(const QuadNodes& own, const QuadNodes& other, const std::array<bool, 3>& mirrored,
+                const VecX& x, FacetOverlap& out) {
   Overlap<T> integrals;
-  if (!add_overlap(quad_of<T>(own, x, 0), quad_of<T>(other, x, 12), integrals)) return false;
+  if (!add_overlap(quad_of<T>(own, x, 0), quad_of<T>(other, x, 12), mirrored, integrals))
+    return false;
   if constexpr (!std::is_same_v<T, double>) {
     out.dM.resize(24);
     out.dK.resize(24);
@@ -97,6 +99,20 @@ bool may_touch(const SurfaceContact& contact, int own, int other, const VecX& x)
   return low < contact.reach && high > -behind;
 }
 
+// Axes across a plane of symmetry that has an edge of the facet.
+std::array<bool, 3> mirrored_edges(const SurfaceContact& contact, const QuadNodes& facet) {
+  std::array<bool, 3> mirrored{};
+  if (contact.mirrors.empty()) return mirrored;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto is_on_plane = [&](int node) {
+      const auto at = std::ranges::lower_bound(contact.nodes, node) - contact.nodes.begin();
+      return contact.mirrors[static_cast<std::size_t>(at)][axis];
+    };
+    mirrored[axis] = std::ranges::count_if(facet, is_on_plane) > 1;
+  }
+  return mirrored;
+}
+
 void set_weights(MortarFacet& facet) {
   facet.M.setZero();
   for (const FacetOverlap& o : facet.overlaps) facet.M += o.M;
@@ -125,13 +141,14 @@ std::vector<MortarFacet> mortar_facets(const SurfaceContact& contact, const VecX
     const QuadNodes& own = contact.own[e];
     MortarFacet facet;
     facet.own = static_cast<int>(e);
+    const std::array<bool, 3> mirrored = mirrored_edges(contact, own);
     for (int m : search.meeting(box_of(own, x, contact.reach))) {
       if (!contact.may_pair(facet.own, m) || !may_touch(contact, facet.own, m, x)) continue;
       FacetOverlap overlap;
       overlap.other = m;
       const QuadNodes& other = contact.other[static_cast<std::size_t>(m)];
-      const bool any = with_derivatives ? overlap_of<Jet<24>>(own, other, x, overlap)
-                                        : overlap_of<double>(own, other, x, overlap);
+      const bool any = with_derivatives ? overlap_of<Jet<24>>(own, other, mirrored, x, overlap)
+                                        : overlap_of<double>(own, other, mirrored, x, overlap);
       if (any) facet.overlaps.push_back(std::move(overlap));
     }
     if (facet.overlaps.empty()) continue;

@@ -3,7 +3,8 @@
 // The facets of two meshes that touch do not match. To average a gap over them, their common part
 // has to be known:
 //   1. both facets are projected onto the plane of the first: its normal n0 is that of the product
-//      of its diagonals, the projection goes along n0
+//      of its diagonals, the projection goes along n0. Where an edge of the first is on a plane of
+//      symmetry, it goes along the part of n0 within that plane, so that the edges of both stay on it
 //   2. the second polygon is clipped by the edges of the first                (Sutherland-Hodgman)
 //   3. what is left is divided into triangles about its middle, with Gauss points in each
 //   4. each Gauss point is found in both facets (inverse of the bilinear map)
@@ -71,10 +72,12 @@ T twice_area(const Point<T>& a, const Point<T>& b, const Point<T>& c) {
 }
 
 // What of `subject` is to the left of the line from a to b. Corners within `slack` of the line
-// count as on it.
+// are moved onto it, and follow it: of two edges that lie on each other, the integrals depend on
+// the one that clips.
 template <class T>
 Polygon<T> clipped(const Polygon<T>& subject, const Point<T>& a, const Point<T>& b, double slack) {
   Polygon<T> out;
+  const Point<T> along{b.x - a.x, b.y - a.y};
   std::array<T, 10> side;
   for (int i = 0; i < subject.n; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -85,7 +88,13 @@ Polygon<T> clipped(const Polygon<T>& subject, const Point<T>& a, const Point<T>&
     const auto to = static_cast<std::size_t>((i + 1) % subject.n);
     const bool from_in = value(side[from]) >= -slack;
     const bool to_in = value(side[to]) >= -slack;
-    if (from_in) out.add(subject.corner[from]);
+    if (from_in && std::abs(value(side[from])) <= slack) {
+      const T share = side[from] / (along.x * along.x + along.y * along.y);
+      const Point<T>& p = subject.corner[from];
+      out.add({p.x + share * along.y, p.y - share * along.x});
+    } else if (from_in) {
+      out.add(subject.corner[from]);
+    }
     if (from_in == to_in) continue;
     // both near the line: the corner that was kept stands for the intersection
     if (std::abs(value(side[from]) - value(side[to])) < 4 * slack) continue;
@@ -174,14 +183,23 @@ inline constexpr std::array<TrianglePoint, 7> triangle_points{{
 }  // namespace overlap_detail
 
 // Adds the integrals over the common part of two facets that face each other; false where there is
-// none.
+// none. mirrored: axes across a plane of symmetry that has an edge of the first facet.
 template <class T>
-bool add_overlap(const Quad<T>& first, const Quad<T>& second, Overlap<T>& out) {
+bool add_overlap(const Quad<T>& first, const Quad<T>& second, const std::array<bool, 3>& mirrored,
+                 Overlap<T>& out) {
   using namespace overlap_detail;
   const Corner<T> diagonal = minus(first[2], first[0]);
   const Corner<T> normal = of_length_1(cross(diagonal, minus(first[3], first[1])));
-  const Corner<T> e1 = of_length_1(diagonal);
-  const Corner<T> e2 = cross(normal, e1);
+  Corner<T> along = normal;  // the direction of the projection
+  Corner<T> within = normal;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (mirrored[axis]) within[axis] = T(0.0);
+  if (value(dot(within, within)) > 0.01) along = of_length_1(within);
+  const T stretch = T(1.0) / dot(normal, along);  // area of the first facet over its projection
+  const T high = dot(diagonal, along);
+  const Corner<T> e1 =
+      of_length_1(minus(diagonal, {high * along[0], high * along[1], high * along[2]}));
+  const Corner<T> e2 = cross(along, e1);
   const auto projected = [&](const Quad<T>& quad) {
     std::array<Point<T>, 4> points;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -205,13 +223,20 @@ bool add_overlap(const Quad<T>& first, const Quad<T>& second, Overlap<T>& out) {
     middle.x = middle.x + (1.0 / common.n) * p.x;
     middle.y = middle.y + (1.0 / common.n) * p.y;
   }
+  double whole = 0;
+  for (int i = 1; i + 1 < common.n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    whole += 0.5 * value(twice_area(common.corner[0], common.corner[k + 1], common.corner[k]));
+  }
+  if (!(whole > 1e-10 * size)) return false;
   bool any = false;
+  // Triangles without area count, too: where two corners become one, they change as fast as their
+  // neighbours.
   for (int i = 0; i < common.n; ++i) {
     // the second facet faces the first: its corners go clockwise
     const Point<T>& p = common.corner[static_cast<std::size_t>((i + 1) % common.n)];
     const Point<T>& q = common.corner[static_cast<std::size_t>(i)];
     const T area = 0.5 * twice_area(middle, p, q);
-    if (!(value(area) > 1e-12 * size)) continue;
     for (const TrianglePoint& g : triangle_points) {
       const Point<T> x{middle.x + g.a * (p.x - middle.x) + g.b * (q.x - middle.x),
                        middle.y + g.a * (p.y - middle.y) + g.b * (q.y - middle.y)};
@@ -219,7 +244,7 @@ bool add_overlap(const Quad<T>& first, const Quad<T>& second, Overlap<T>& out) {
       std::array<T, 4> N_other;
       if (!shape_functions_at(a, x, N) || !shape_functions_at(b, x, N_other)) continue;
       any = true;
-      const T weight = g.weight * area;
+      const T weight = g.weight * area * stretch;
       for (std::size_t k = 0; k < 4; ++k) {
         const T weighted = weight * N[k];
         for (std::size_t l = 0; l < 4; ++l) {
