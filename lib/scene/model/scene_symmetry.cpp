@@ -127,6 +127,11 @@ std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>&
   return group;
 }
 
+// where a number is in an ascending list that has it
+std::size_t place_of(int number, const std::vector<int>& ascending) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(ascending, number) - ascending.begin());
+}
+
 }  // namespace
 
 std::optional<ReducedScene> ReducedScene::find(
@@ -244,8 +249,7 @@ void ReducedScene::take_surfaces(const Scene& scene) {
     part.mirrors.clear();
     for (int node : part.nodes) {
       const auto n = static_cast<std::size_t>(node);
-      const auto at = static_cast<std::size_t>(
-          std::ranges::lower_bound(whole.nodes, quotient_.node[n]) - whole.nodes.begin());
+      const auto at = place_of(quotient_.node[n], whole.nodes);
       std::array<bool, 3> across{};
       if (!whole.mirrors.empty()) across = whole.mirrors[at];
       for (int k = 0; k < 3; ++k)
@@ -518,8 +522,7 @@ void ReducedScene::expand_surfaces(const StepRecord& reduced, StepRecord& record
     ContactRecord& contact = record.contacts[name] = {};
     for (int node : surfaces_[s].nodes) {
       const Image& image = quotient_.node_image[static_cast<std::size_t>(node)];
-      const auto of = std::ranges::lower_bound(candidates, image.of) - candidates.begin();
-      append_image(kept, static_cast<std::size_t>(of), image.T,
+      append_image(kept, place_of(image.of, candidates), image.T,
                    quotient_.node_share[static_cast<std::size_t>(image.of)], contact);
     }
     Vec3 force = Vec3::Zero();
@@ -595,9 +598,7 @@ BodyState ReducedScene::reduced(const StepRecord& whole) const {
     std::vector<Bond> bonds;
     for (int node : scene_.surfaces[s].nodes) {
       const auto n = static_cast<std::size_t>(node);
-      const auto at =
-          static_cast<std::size_t>(std::ranges::lower_bound(surfaces_[s].nodes, quotient_.node[n]) -
-                                   surfaces_[s].nodes.begin());
+      const auto at = place_of(quotient_.node[n], surfaces_[s].nodes);
       r.push_back(quotient_.node_share[n] * of_whole.r[at]);
       if (!of_whole.beta.empty()) bonds.push_back(bond_of(of_whole, at));
     }
