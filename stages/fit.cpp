@@ -157,6 +157,30 @@ void check_side_files(const Job<FitConfig>& job, const FitProblem& problem) {
   }
 }
 
+// Samples of the posterior. Their scenes are solved at some of them only.
+Posterior sampled_posterior(const Job<FitConfig>& job, const FitProblem& problem,
+                            const FitResult& found, const std::optional<InverseFit>& scenes) {
+  const PosteriorConfig& asked = *job.config.study->posterior;
+  const int threads = job.config.study->threads;
+  std::vector<std::string> lines, warnings;
+  Posterior sampled;
+  if (scenes) {
+    const CostlyPosterior costly =
+        costly_posterior(scenes->costly(), found, asked, threads,
+                         [&](const std::string& line) { job.detail("{}", line); });
+    lines = costly_posterior_lines(costly);
+    warnings = costly_posterior_warnings(costly, asked);
+    sampled = costly.posterior;
+  } else {
+    sampled = posterior(problem, found, asked, threads, progress_of("fit", "posterior", job.quiet));
+    lines = posterior_lines(sampled);
+    warnings = posterior_warnings(sampled);
+  }
+  for (const std::string& line : lines) job.say("{}", line);
+  for (const std::string& line : warnings) job.warn("{}", line);
+  return sampled;
+}
+
 // A fit of one law: read, search, report, then tables, figures and the study. `tables`: of a
 // comparison in which this law was chosen.
 std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
@@ -240,11 +264,7 @@ std::vector<Summary> fit_one_law(const Job<FitConfig>& job,
     for (const InverseFit::Widening& widening : scenes->widenings(found))
       job.say("{}", in_words(widening));
   if (config.study && config.study->posterior) {
-    const Posterior sampled =
-        posterior(problem, found, *config.study->posterior, config.study->threads,
-                  progress_of("fit", "posterior", job.quiet));
-    for (const std::string& line : posterior_lines(sampled)) job.say("{}", line);
-    for (const std::string& line : posterior_warnings(sampled)) job.warn("{}", line);
+    const Posterior sampled = sampled_posterior(job, problem, found, scenes);
     record.tables.push_back(sampled.table);
     write_text_file(job.side_file("posterior.csv"), csv(sampled.table));
     write_text_file(job.side_file("posterior_samples.csv"), posterior_csv(sampled));

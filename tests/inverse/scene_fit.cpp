@@ -635,4 +635,38 @@ TEST_CASE("A prior of the thickness widens what the force alone says, and what i
   holds(in_words(*one), "is fixed at 3 mm; freeing it widens");
 }
 
+TEST_CASE("the posterior of a scene by some runs is that of its density, run at each step") {
+  write_force("force.csv", truth());
+  const auto loaded = read(std::string(force) + ", standard_deviation: 0.003}]\n" + law +
+                           "parameters: [{key: matrix.yeoh.a1}, {key: matrix.yeoh.a2}]\n");
+  FitProblem problem = fit_problem(loaded.config);
+  InverseFit inverse({"fit", true, false}, loaded.config, loaded.where, problem, {}, "");
+  const FitResult found = inverse.search();
+  PosteriorConfig config;
+  config.samples = 4000;
+  const int before = inverse.runs();
+  const CostlyPosterior fast = costly_posterior(inverse.costly(), found, config, 1);
+  CHECK(fast.reached);
+  CHECK(inverse.runs() - before <= fast.runs);
+  CHECK(fast.runs <= 100);
+  // the sampler with the scenes themselves
+  config.samples = 160;
+  config.warmup = 50;
+  config.chains = 2;
+  const Posterior exact = posterior(problem, found, config, 1);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    CAPTURE(j);
+    const VecX values = exact.samples.col(j);
+    const double mean = values.mean();
+    const double deviation =
+        std::sqrt((values.array() - mean).square().sum() / static_cast<double>(values.size() - 1));
+    const double effective = exact.effective[static_cast<std::size_t>(j)];
+    const VecX of_fast = fast.posterior.samples.col(j);
+    CHECK(of_fast.mean() == near(mean, 0, 4 * deviation / std::sqrt(effective)));
+    const double spread = std::sqrt((of_fast.array() - of_fast.mean()).square().sum() /
+                                    static_cast<double>(of_fast.size() - 1));
+    CHECK(spread == near(deviation, 0, 4 * deviation / std::sqrt(2 * effective)));
+  }
+}
+
 }  // namespace scene_fit_tests

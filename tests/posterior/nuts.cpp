@@ -135,3 +135,36 @@ TEST_CASE("correlated samples count as fewer") {
   }
   CHECK(convergence(chains).effective == near(16000 * 0.1 / 1.9, 0.2));
 }
+
+TEST_CASE("paths are reflected at walls: a normal density that ends in its middle") {
+  // correlated by 0.99, cut at 0 and at 1 in the first number
+  MatX C(2, 2);
+  C << 1, 0.99, 0.99, 1;
+  const MatX H = C.inverse();
+  const LogDensity density = [&](const VecX& x, VecX& g) {
+    g = -H * x;
+    return -0.5 * x.dot(H * x);
+  };
+  std::vector<VecX> first, second;
+  for (int c = 0; c < 4; ++c) {
+    NutsOptions options;
+    options.samples = 4000;
+    options.chain = static_cast<std::uint64_t>(c);
+    options.lower = VecX{{0, -INFINITY}};
+    options.upper = VecX{{1, INFINITY}};
+    const NutsChain chain = sample_chain(density, VecX{{0.5, 0.5}}, C, options);
+    CHECK(chain.divergences == 0);
+    CHECK(chain.draws.col(0).minCoeff() >= 0);
+    CHECK(chain.draws.col(0).maxCoeff() <= 1);
+    first.push_back(chain.draws.col(0));
+    second.push_back(chain.draws.col(1));
+  }
+  // mean of a standard normal number between 0 and 1: (phi(0) - phi(1)) / (Phi(1) - Phi(0))
+  const double mean = (0.3989423 - 0.2419707) / 0.3413447;
+  const Convergence c = convergence(first);
+  CHECK(c.r_hat < 1.01);
+  CHECK(c.effective > 2000);
+  CHECK(std::abs(mean_of(first) - mean) < 4 * 0.29 / std::sqrt(c.effective));
+  CHECK(std::abs(mean_of(second) - 0.99 * mean) <
+        4 * 0.33 / std::sqrt(convergence(second).effective));
+}

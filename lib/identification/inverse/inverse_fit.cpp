@@ -60,6 +60,21 @@ InverseFit::InverseFit(const Voice& voice, const FitConfig& config, const SceneT
   problem_.further = scenes_;
 }
 
+CostlyTests InverseFit::costly() const {
+  CostlyTests costly;
+  costly.tests = scenes_;
+  costly.run_ahead = [scenes = scenes_](const std::vector<VecX>& p) {
+    scenes->run_ahead(p);
+  };
+  costly.problem_with = [problem = problem_,
+                         priors = priors_](const std::shared_ptr<FurtherTests>& others) {
+    FitProblem with_others = problem;
+    with_others.further = with_priors(priors, others);
+    return with_others;
+  };
+  return costly;
+}
+
 // Fits at one mesh size. A signal ends the search with advice; cached runs are kept.
 FitResult InverseFit::level(const std::shared_ptr<SceneTests>& scenes, const FitOptions& options) {
   problem_.further = with_priors(priors_, scenes);

@@ -11,6 +11,7 @@
 #include "core/base/voice.hpp"
 #include "identification/fit/prior.hpp"
 #include "identification/inverse/scene_fit.hpp"
+#include "identification/posterior/costly_posterior.hpp"
 
 namespace langer {
 
@@ -28,6 +29,9 @@ class InverseFit {
     priors_ = priors;
     problem_.further = with_priors(priors_, scenes_);
   }
+
+  // The scenes as tests whose model takes runs, for a posterior.
+  CostlyTests costly() const;
 
   // Throws Failure(not_converged) where no start leads to an optimum, one with the signal's code
   // where one has come.

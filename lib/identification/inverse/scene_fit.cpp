@@ -97,6 +97,14 @@ bool SceneTests::paths_at(const VecX& p, std::vector<Path>& paths) {
   return true;
 }
 
+void SceneTests::run_ahead(const std::vector<VecX>& p) {
+  std::vector<Wanted> wanted;
+  for (const VecX& one : p)
+    for (std::size_t scene = 0; scene < scenes_.size(); ++scene)
+      wanted.push_back({scene, input_at(one, scene)});
+  solved(wanted);
+}
+
 // A quantity of the instrument: the free parameter if there is one, else the value of the config.
 double SceneTests::measured_by(const SceneTest& test, SceneNumber::Of of, const VecX& p) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i)

@@ -59,6 +59,9 @@ class SceneTests : public FurtherTests {
   bool model(const VecX& p, VecX& values) override;
   bool slope(const VecX& p, MatX& J) override;
 
+  // Makes the runs of many sets of parameters, which model() and slope() find later.
+  void run_ahead(const std::vector<VecX>& p);
+
   // Reads solve configs and files; `files` are those of the items that name none. problem: its law,
   // free numbers and ties. Throws Failure(config, input) at the key or the line that does not fit.
   SceneTests(const FitConfig& config, const Where& where, const FitProblem& problem,

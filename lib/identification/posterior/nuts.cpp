@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/random.hpp"
 #include "core/tensor/dense.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 constexpr double energy_error_of_divergence = 1000;
+constexpr int most_reflections = 100;  // in one step
 
 double log_sum(double a, double b) {
   const double high = std::max(a, b);
@@ -128,9 +130,49 @@ class Sampler {
     const double h = direction * step;
     if (point.log_density == minus_infinity) return;
     point.momentum += 0.5 * h * point.gradient;
-    point.x += h * (scale_ * point.momentum);
+    if (!drift(point, h)) {
+      point.log_density = minus_infinity;
+      return;
+    }
     evaluate(point);
     if (point.log_density > minus_infinity) point.momentum += 0.5 * h * point.gradient;
+  }
+
+  // Moves x for the time h, reflected at walls like light at a mirror in the metric of the momenta.
+  // False where one step is so long that it goes from wall to wall.
+  bool drift(Point& point, double h) const {
+    if (options_.lower.size() == 0) {
+      point.x += h * (scale_ * point.momentum);
+      return true;
+    }
+    const double direction = h < 0 ? -1 : 1;
+    double left = std::abs(h);
+    for (int i = 0; i < most_reflections; ++i) {
+      const VecX velocity = direction * (scale_ * point.momentum);
+      const auto [hit, time] = next_wall(point.x, velocity);
+      if (hit < 0 || time >= left) {
+        point.x += left * velocity;
+        point.x = point.x.cwiseMax(options_.lower).cwiseMin(options_.upper);
+        return point.x.allFinite();
+      }
+      point.x += time * velocity;
+      point.x[hit] = velocity[hit] > 0 ? options_.upper[hit] : options_.lower[hit];
+      point.momentum[hit] -= 2 * direction * velocity[hit] / scale_(hit, hit);
+      left -= time;
+    }
+    return false;
+  }
+
+  // The wall that x meets first, and when; -1: none.
+  std::pair<Eigen::Index, double> next_wall(const VecX& x, const VecX& velocity) const {
+    std::pair<Eigen::Index, double> first{-1, std::numeric_limits<double>::infinity()};
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      if (velocity[i] == 0) continue;
+      const double wall = velocity[i] > 0 ? options_.upper[i] : options_.lower[i];
+      const double time = (wall - x[i]) / velocity[i];
+      if (time < first.second) first = {i, std::max(0., time)};
+    }
+    return first;
   }
 
   static bool goes_apart(const VecX& velocity_a, const VecX& velocity_b, const VecX& sum) {

@@ -26,6 +26,9 @@ struct NutsOptions {
   std::uint64_t chain = 0;
   double acceptance = 0.85;
   int deepest = 10;  // paths of at most 2^deepest steps
+  // (n) walls between which x moves, infinite where there is none; empty: none at all. Paths are
+  // reflected at walls [AD15], so the density may end there without falling to 0.
+  VecX lower = {}, upper = {};
 };
 
 struct NutsChain {

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/in_order.hpp"
 #include "core/base/quantile.hpp"
 #include "core/base/random.hpp"
-#include "core/base/traps.hpp"
 #include "core/tensor/dense.hpp"
-#include "identification/fit/periodic.hpp"
+#include "identification/posterior/fit_density.hpp"
 #include "identification/posterior/nuts.hpp"
 #include "identification/statistics/study.hpp"
 #include "results/store/curves_file.hpp"
@@ -19,144 +17,6 @@
 namespace langer {
 
 namespace {
-
-// A parameter as a number without bounds: the logit of its place in the box, ln of its distance
-// from one bound, or itself.
-struct Free {
-  double lower = 0, upper = 0;
-  bool below = false, above = false;  // which bounds there are
-
-  double number(double x) const {
-    const NoTraps may_be_infinite;
-    if (below && above) return lower + (upper - lower) / (1 + std::exp(-x));
-    if (below) return lower + std::exp(x);
-    if (above) return upper - std::exp(-x);
-    return x;
-  }
-  double slope(double x) const {
-    if (below && above) {
-      const double e = std::exp(-std::abs(x));
-      return (upper - lower) * e / ((1 + e) * (1 + e));
-    }
-    if (below) return std::exp(x);
-    if (above) return std::exp(-x);
-    return 1;
-  }
-  // d ln slope / dx
-  double curvature(double x) const {
-    if (below && above) return -std::tanh(0.5 * x);
-    if (below) return 1;
-    if (above) return -1;
-    return 0;
-  }
-  double place(double p) const {
-    if (below && above) {
-      const double share = std::clamp((p - lower) / (upper - lower), 1e-6, 1 - 1e-6);
-      return std::log(share / (1 - share));
-    }
-    if (below) return std::log(std::max(p - lower, 1e-9));
-    if (above) return -std::log(std::max(upper - p, 1e-9));
-    return p;
-  }
-};
-
-class FitDensity {
- public:
-  FitDensity(const FitProblem& problem, const FitResult& fit)
-      : model_(likelihood_problem(problem, fit)), estimate_(fit.best.p) {
-    known_noise_ = problem.further != nullptr;
-    for (Eigen::Index i = 0; i < model_.lower.size(); ++i) {
-      Free one;
-      // an angle that comes again has no bounds
-      if (!(model_.period_of(i) > 0)) {
-        one.lower = model_.lower[i];
-        one.upper = model_.upper[i];
-        one.below = std::isfinite(one.lower);
-        one.above = std::isfinite(one.upper);
-      }
-      free_.push_back(one);
-    }
-  }
-
-  VecX numbers(const VecX& x) const {
-    VecX p(x.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i)
-      p[i] = free_[static_cast<std::size_t>(i)].number(x[i]);
-    return p;
-  }
-
-  VecX place(const VecX& p) const {
-    VecX x(p.size());
-    for (Eigen::Index i = 0; i < p.size(); ++i)
-      x[i] = free_[static_cast<std::size_t>(i)].place(p[i]);
-    return x;
-  }
-
-  // angles by whole periods to where the estimate is
-  void turn_to_estimate(VecX& p) const {
-    for (Eigen::Index i = 0; i < p.size(); ++i) {
-      const double period = model_.period_of(i);
-      if (period > 0) p[i] -= period * std::round((p[i] - estimate_[i]) / period);
-    }
-  }
-
-  double operator()(const VecX& x, VecX& gradient) {
-    gradient = VecX::Zero(x.size());
-    const VecX p = numbers(x);
-    VecX u;
-    MatX J;
-    if (!p.allFinite() || !model_.residual(p, u) || !u.allFinite() || !jacobian(model_, p, J)) {
-      return -std::numeric_limits<double>::infinity();
-    }
-    const double square = u.squaredNorm();
-    const auto n = static_cast<double>(u.size());
-    double value = -0.5 * square;
-    double factor = -1;
-    if (!known_noise_) {
-      value = -0.5 * n * std::log(square);
-      factor = -n / square;
-    }
-    gradient = factor * (J.transpose() * u);
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const Free& one = free_[static_cast<std::size_t>(i)];
-      const double slope = one.slope(x[i]);
-      // so far out that the parameter is at its bound to the last digit
-      if (!(slope > 0)) return -std::numeric_limits<double>::infinity();
-      gradient[i] = gradient[i] * slope + one.curvature(x[i]);
-      value += std::log(slope);
-    }
-    return value;
-  }
-
-  // The covariance of x by the curvature of the density at the estimate.
-  MatX scale(const VecX& x) {
-    VecX u;
-    MatX J;
-    const VecX p = numbers(x);
-    const auto k = x.size();
-    if (!model_.residual(p, u) || !jacobian(model_, p, J)) return MatX::Identity(k, k);
-    const auto freedom = std::max(1., static_cast<double>(u.size() - k));
-    double variance = std::max(u.squaredNorm() / freedom, 1e-300);
-    if (known_noise_) variance = 1;
-    for (Eigen::Index i = 0; i < k; ++i) J.col(i) *= free_[static_cast<std::size_t>(i)].slope(x[i]);
-    MatX H = J.transpose() * J / variance;
-    for (Eigen::Index i = 0; i < k; ++i) {
-      const Free& one = free_[static_cast<std::size_t>(i)];
-      // of the logistic distribution, which is what a flat prior in a box is on this scale
-      double own = 0.3;
-      // an angle of symmetry has no curvature to first order
-      if (!one.below && !one.above) own = 1 / (15. * 15.);
-      H(i, i) += own;
-    }
-    return Cholesky(H).inverse();
-  }
-
- private:
-  LeastSquares model_;
-  VecX estimate_;
-  std::vector<Free> free_;
-  bool known_noise_ = false;
-};
 
 void set_table(Posterior& result) {
   RecordTable& table = result.table;
@@ -205,11 +65,16 @@ Posterior posterior(const FitProblem& problem, const FitResult& fit, const Poste
         VecX z(p);
         for (double& one : z) one = random.normal();
         const MatX root = Cholesky(scale).L();
-        VecX begin = start + 2 * (root * z);
+        NutsOptions options;
+        options.lower = density.lower_walls();
+        options.upper = density.upper_walls();
+        const auto between_walls = [&](const VecX& x) -> VecX {
+          return x.cwiseMax(options.lower).cwiseMin(options.upper);
+        };
+        VecX begin = between_walls(start + 2 * (root * z));
         VecX gradient;
         for (int i = 0; i < 20 && !std::isfinite(density(begin, gradient)); ++i)
           begin = 0.5 * (begin + start);
-        NutsOptions options;
         options.samples = each;
         options.warmup = config.warmup;
         options.seed = static_cast<std::uint64_t>(config.seed);
@@ -283,14 +148,14 @@ std::vector<std::string> posterior_lines(const Posterior& posterior) {
   return lines;
 }
 
-std::vector<std::string> posterior_warnings(const Posterior& posterior) {
+std::vector<std::string> posterior_warnings(const Posterior& posterior, const std::string& advice) {
   std::vector<std::string> lines;
   for (std::size_t j = 0; j < posterior.names.size(); ++j) {
     if (!(posterior.r_hat[j] < 1.01) || posterior.effective[j] < 400)
       lines.push_back(fmt::format(
           "the posterior of {} is not known well: R-hat {:.3f} (should be below 1.01), {:.0f} "
-          "effective samples (400); more samples, more warmup, or parameters that the tests know",
-          posterior.names[j], posterior.r_hat[j], posterior.effective[j]));
+          "effective samples (400); {}",
+          posterior.names[j], posterior.r_hat[j], posterior.effective[j], advice));
   }
   if (posterior.divergences > 0)
     lines.push_back(

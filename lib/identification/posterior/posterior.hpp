@@ -7,7 +7,7 @@
 //   p(theta) ~ |u(theta)|^-N prior(theta)        exp(-|u|^2/2) prior(theta) where weights are believed in
 // For a straight model and no prior this is Student's distribution, whose quantiles are the
 // intervals of the profile.
-// Numbers with two bounds are sampled on the scale of the logit, so that no sample leaves the box.
+// On which scale it is sampled: fit_density.hpp.
 #pragma once
 
 #include <functional>
@@ -39,6 +39,9 @@ void summarise(Posterior& posterior);
 
 std::string posterior_csv(const Posterior& posterior);  // chain, parameters, log_density
 std::vector<std::string> posterior_lines(const Posterior& posterior);
-std::vector<std::string> posterior_warnings(const Posterior& posterior);
+// advice: what makes it better known
+std::vector<std::string> posterior_warnings(
+    const Posterior& posterior,
+    const std::string& advice = "more samples, more warmup, or parameters that the tests know");
 
 }  // namespace langer

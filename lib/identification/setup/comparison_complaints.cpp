@@ -144,10 +144,6 @@ std::vector<Complaint> comparison_complaints(const FitConfig& config) {
     complain_of_other_keys(config, "specimens", all);
   }
   complain_of_priors(config, all);
-  if (config.has_scenes() && config.study && config.study->posterior)
-    all.push_back({"study.posterior", "found in a fit with scenes", "tests without scenes",
-                   "it takes thousands of runs; the bootstrap of a study is that of the model "
-                   "linearised where it was found"});
   for (std::size_t i = 0; i < config.data.size(); ++i)
     if (!config.data[i].specimen.empty() && !specimens)
       all.push_back({fmt::format("data[{}].specimen", i), "found without `specimens`",

@@ -11,6 +11,8 @@ struct PosteriorConfig {
   int warmup = 300;
   int seed = 1;
   double acceptance = 0.85;
+  int runs = 1000;
+  double shift = 0.05;
   static void fields(auto& v) {
     v(&PosteriorConfig::samples, "samples", unit::none, "of all chains together",
       between(100, 1000000));
@@ -23,6 +25,13 @@ struct PosteriorConfig {
     v(&PosteriorConfig::acceptance, "acceptance", unit::none,
       "that the step size aims at; closer to 1: smaller steps, fewer divergences",
       between(0.5, 0.99));
+    v(&PosteriorConfig::runs, "runs", unit::none,
+      "of a fit with scenes: sets of parameters at which scenes are solved, at most",
+      between(40, 100000));
+    v(&PosteriorConfig::shift, "shift", unit::none,
+      "of a fit with scenes: standard deviations by which a mean may be off, because polynomials "
+      "are sampled instead of scenes",
+      between(1e-3, 1));
   }
 };
 
