@@ -112,7 +112,8 @@ void measure_inverse_coverage() {
 namespace {
 
 // How many of the intervals of a1, a2 and a3 hold the truth in one fit; nothing without an optimum.
-std::optional<std::array<bool, 3>> held_by(const std::string& yaml) {
+// by_posterior: intervals are quantiles of samples instead.
+std::optional<std::array<bool, 3>> held_by(const std::string& yaml, bool by_posterior) {
   const auto loaded = read_config<FitConfig>(parse_yaml(yaml, "fit.yaml", folder));
   FitProblem problem = fit_problem(loaded.config);
   InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, {}, "");
@@ -124,9 +125,16 @@ std::optional<std::array<bool, 3>> held_by(const std::string& yaml) {
     return std::nullopt;
   }
   const FitRecord record = fit_record(problem, found);
+  RecordTable samples;
+  if (by_posterior)
+    samples = costly_posterior(inverse.costly(), found, PosteriorConfig{}, 1).posterior.table;
   std::array<bool, 3> held{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto [low, high] = interval_95(record.parameters[i]);
+    auto [low, high] = interval_95(record.parameters[i]);
+    if (by_posterior) {
+      low = samples.column("lower_95").values[i];
+      high = samples.column("upper_95").values[i];
+    }
     held[i] = low <= true_values[i] && true_values[i] <= high;
   }
   return held;
@@ -143,7 +151,10 @@ void measure_thickness_prior() {
       "indentation of a disc of 4 mm, noise of 2 mN, thickness measured with an error of 10 %, {} seeds:\n"
       "95 % intervals that hold a1, a2, a3\n| thickness | a1 | a2 | a3 | no optimum |\n| --- | --- | --- | --- | --- |\n",
       seeds);
-  for (const bool free : {false, true}) {
+  for (const char* row : {"held at what was measured", "a parameter with its prior",
+                          "the same, by samples of the posterior"}) {
+    const bool free = row[0] != 'h';
+    const bool by_posterior = row[0] == 't';
     std::array<int, 3> held{};
     int failed = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -159,7 +170,7 @@ void measure_thickness_prior() {
                   fmt::format(", {{key: \"mesh.geometry.indented_disc.size[1]\", lower: 1.5, "
                               "upper: 8, prior: {{normal: [{}, {}]}}}}",
                               measured, deviation));
-      const auto one = held_by(yaml);
+      const auto one = held_by(yaml, by_posterior);
       if (!one) {
         ++failed;
         continue;
@@ -167,9 +178,8 @@ void measure_thickness_prior() {
       for (std::size_t i = 0; i < 3; ++i) held[i] += (*one)[i] ? 1 : 0;
     }
     const double all = std::max(1, seeds - failed);
-    fmt::print("| {} | {:.0f} % | {:.0f} % | {:.0f} % | {} |\n",
-               free ? "a parameter with its prior" : "held at what was measured",
-               100 * held[0] / all, 100 * held[1] / all, 100 * held[2] / all, failed);
+    fmt::print("| {} | {:.0f} % | {:.0f} % | {:.0f} % | {} |\n", row, 100 * held[0] / all,
+               100 * held[1] / all, 100 * held[2] / all, failed);
     std::fflush(stdout);
   }
   fmt::print("{:.0f} s CPU\n", cpu_seconds() - begun);

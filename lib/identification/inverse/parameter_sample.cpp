@@ -8,7 +8,7 @@
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
-#include "identification/population/link.hpp"
+#include "identification/population/untested_specimen.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
@@ -41,26 +41,6 @@ VecX drawn(const FitRecord& fit, int number) {
   return p;
 }
 
-// A specimen of the population: the same number is always the same one.
-VecX drawn_specimen(const PopulationRecord& population, int number) {
-  const auto n = population.median.size();
-  Random random(1, static_cast<std::uint64_t>(number));
-  VecX z(n);
-  for (double& one : z) one = random.normal();
-  const VecX phi = population.median + covariance_root(population.scatter) * z;
-  VecX p(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    Link link;
-    for (const LinkKind kind : {LinkKind::identity, LinkKind::log, LinkKind::logit})
-      if (population.links[at] == names(kind)[static_cast<std::size_t>(kind)]) link.kind = kind;
-    link.lower = population.lower[at];
-    link.upper = population.upper[at];
-    p[i] = link.backward(phi[i]);
-  }
-  return p;
-}
-
 }  // namespace
 
 std::string reason_without_samples(const MaterialFile& file, int number) {
@@ -81,7 +61,8 @@ ParameterSample sample_of(const MaterialFile& file, int number) {
   const FitRecord& fit = *file.fit;
   VecX p;
   if (fit.population) {
-    p = drawn_specimen(*fit.population, number);
+    Random random(1, static_cast<std::uint64_t>(number));
+    p = UntestedSpecimens(*fit.population).draw(random);
   } else if (fit.sets.rows() > 0) {
     p = fit.sets.row(number - 1).transpose();
   } else {

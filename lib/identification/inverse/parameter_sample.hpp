@@ -1,6 +1,6 @@
 // One of the sets of parameters that a fit leaves open, by its number: the stage sample, whose
 // sweep is the check of the linear band (inverse/uncertainty.hpp).
-//   of a population           specimens drawn from its scatter, as langer-fit with `specimens` found it
+//   of a population           specimens that were not tested (population/untested_specimen.hpp)
 //   with a bootstrap in material.h5   its samples, one after the other
 //   without                           p + L z, C = L L^T the fit's covariance, z normal of that number's own stream, put into the bounds
 // Ties follow. Numbers that are not of the law, such as the friction of a scene or the offset of a

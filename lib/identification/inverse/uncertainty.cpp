@@ -10,21 +10,12 @@
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "core/tensor/dense.hpp"
-#include "identification/population/link.hpp"
+#include "identification/population/untested_specimen.hpp"
 #include "mechanics/material/parameters.hpp"
 
 namespace langer {
 
 namespace {
-
-Link link_of(const PopulationRecord& population, std::size_t at) {
-  Link link;
-  link.lower = population.lower[at];
-  link.upper = population.upper[at];
-  if (population.links[at] == "log") link.kind = LinkKind::log;
-  if (population.links[at] == "logit") link.kind = LinkKind::logit;
-  return link;
-}
 
 // The place of each fitted parameter in a population; -1 where it is none of it.
 std::vector<Eigen::Index> places_in(const PopulationRecord& population, const FitRecord& fit) {
@@ -41,7 +32,7 @@ std::vector<Eigen::Index> places_in(const PopulationRecord& population, const Fi
 MatX scatter_of(const PopulationRecord& population, const FitRecord& fit) {
   const auto n = static_cast<Eigen::Index>(fit.parameters.size());
   MatX covariance = MatX::Constant(n, n, std::nan(""));
-  const MatX of_phi = population.scatter + population.median_covariance;
+  const MatX of_phi = covariance_of_untested(population);
   VecX slope(of_phi.rows());
   for (Eigen::Index j = 0; j < slope.size(); ++j)
     slope[j] = link_of(population, static_cast<std::size_t>(j)).slope(population.median[j]);
@@ -61,19 +52,16 @@ MatX scatter_of(const PopulationRecord& population, const FitRecord& fit) {
 MatX draw_specimens(const PopulationRecord& population, const FitRecord& fit,
                     const std::vector<Eigen::Index>& kept) {
   constexpr Eigen::Index n = 4000;
-  const MatX root = covariance_root(population.scatter + population.median_covariance);
+  const UntestedSpecimens specimens(population);
+  const VecX median = specimens.median();
   const std::vector<Eigen::Index> places = places_in(population, fit);
   MatX drawn(n, static_cast<Eigen::Index>(kept.size()));
-  VecX z(population.median.size());
   for (Eigen::Index k = 0; k < n; ++k) {
     Random random(2, static_cast<std::uint64_t>(k));
-    for (double& one : z) one = random.normal();
-    const VecX phi = population.median + root * z;
+    const VecX numbers = specimens.draw(random);
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const Eigen::Index j = places[static_cast<std::size_t>(kept[i])];
-      const Link link = link_of(population, static_cast<std::size_t>(j));
-      drawn(k, static_cast<Eigen::Index>(i)) =
-          link.backward(phi[j]) - link.backward(population.median[j]);
+      drawn(k, static_cast<Eigen::Index>(i)) = numbers[j] - median[j];
     }
   }
   return drawn;
