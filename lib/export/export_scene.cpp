@@ -253,7 +253,9 @@ class DeckComposer {
         path_(path),
         config_(config),
         whole_(scene_of(config_, header_)),
-        found_(ReducedScene::find(config_.symmetry, header_.mesh, whole_, nowhere)),
+        // decks of other programs move what the config moves
+        found_(ReducedScene::find(config_.symmetry, header_.mesh, whole_, nowhere, nullptr,
+                                  ReducedScene::Seen::from_rest)),
         part_(exportable(found_)) {}
 
   // Composes the whole deck; may be called once.

@@ -247,7 +247,8 @@ struct Judged {
 };
 
 Judged judged(const std::string& text, bool at_a_point) {
-  const SolveConfig config = test::config_of(text);
+  SolveConfig config = test::config_of(text);
+  config.symmetry = SymmetryChoice::none;  // all of the mesh
   Run run(test::mesh_in(config), config, config.material, test::nowhere, at_a_point);
   RunWatch watch(run, config, test::nowhere, {});
   Judged out;

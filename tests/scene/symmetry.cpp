@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mechanics/mesh/select.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -180,6 +181,121 @@ TEST_CASE(
   for (int e = 0; e < mesh.n_cells(); ++e)
     scene.directions.append({e == 5 ? Vec3(0.6, 0, 0.8) : Vec3(1, 0, 0)});
   CHECK(!ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere));
+}
+
+namespace {
+
+// A block whose left end is clamped and whose right end is pulled by `to`.
+struct Pulled {
+  CellType cells = CellType::hex8;
+  double alpha = 0;  // of one family of fibres [deg]
+  Vec3 to = Vec3(0.6, 0, 0);
+  bool holds_and_goes_back = false;
+  double traction = 0;  // on top, along y [MPa]
+  int across = 2;       // cells of the thickness
+};
+
+Scene pulled_scene(const Pulled& c, const Mesh& mesh) {
+  Scene scene;
+  scene.formulation = usual_formulation(mesh.type);
+  scene.materials = {test::table1(c.alpha, 1e-4)};
+  std::get<HgoFibre>(scene.materials[0].fibres[0].law).c1 = 0.2;
+  scene.directions = test::directions(mesh, scene.materials);
+  LoadFactor factor;
+  if (c.holds_and_goes_back)
+    factor = std::make_shared<const std::vector<HistoryPoint<double>>>(
+        std::vector<HistoryPoint<double>>{{0.5, 1}, {0.75, 1}, {1, -0.2}});
+  std::vector<Prescribed> held;
+  for (int i : mesh.node_sets.at("x_min"))
+    for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, 0});
+  for (int i : mesh.node_sets.at("x_max"))
+    for (int k = 0; k < 3; ++k) held.push_back({3 * i + k, c.to[k], factor});
+  scene.dofs = number_dofs(mesh.n_nodes(), held).dofs;
+  if (c.traction != 0) {
+    SurfaceLoad load;
+    load.facets = mesh.facet_sets.at("y_max");
+    load.traction = Vec3(0, c.traction, 0);
+    scene.loads = {load};
+  }
+  return scene;
+}
+
+Mesh strip(const Pulled& c) {
+  Mesh mesh = test::block(test::even(0, 4, 6), test::even(0, 1, c.across), test::even(-1, 1, 4));
+  if (c.cells != CellType::hex8) mesh = test::raised_block(mesh, c.cells);
+  name_sides(mesh);
+  return mesh;
+}
+
+// The words of the symmetry; the part gives what the whole body gives.
+std::string compared(const Pulled& c) {
+  CAPTURE(c.alpha);
+  const Mesh mesh = strip(c);
+  const Scene scene = pulled_scene(c, mesh);
+  const auto part = ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere);
+  if (!part) return "";
+  const test::Solved whole = solved(mesh, scene, std::nullopt, in_four_steps()),
+                     few = solved(mesh, scene, part, in_four_steps());
+  REQUIRE(whole.steps.size() == few.steps.size());
+  for (std::size_t s = 0; s < whole.steps.size(); ++s) {
+    CHECK(largest_difference(whole.steps[s].u, few.steps[s].u) < 1e-8);
+    CHECK(largest_difference(whole.steps[s].reaction, few.steps[s].reaction) < 1e-8);
+  }
+  // to continue from a step of the whole body
+  const StepRecord& last = whole.steps.back();
+  StepRecord of_part = few.steps.back();
+  const BodyState state = part->reduced(last);
+  of_part.u.clear();
+  for (Eigen::Index i = 0; i < state.u.size(); i += 3) of_part.u.push_back(state.u.segment<3>(i));
+  of_part.reaction.assign(of_part.u.size(), Vec3::Zero());
+  CHECK(largest_difference(part->whole(of_part).u, last.u) < 1e-8);
+  return part->words();
+}
+
+}  // namespace
+
+TEST_CASE("one end held, the other pulled: symmetric as seen from half way between them") {
+  CHECK(compared({}).starts_with("mirror x and mirror z and mirror y through (2, 0.5, 0)"));
+  CHECK(compared({.alpha = 30}).starts_with("half turn about y and mirror y"));
+  CHECK(compared({.alpha = 30, .to = Vec3(0.4, 0, 0.3)}).starts_with("half turn about y and"));
+  CHECK(compared({.to = Vec3(0, 0.4, 0)}).starts_with("mirror z through"));
+  CHECK(compared({.to = Vec3(-0.1, 0, 0.5), .holds_and_goes_back = true}).starts_with("half turn"));
+  CHECK(compared({.alpha = 30, .holds_and_goes_back = true}).starts_with("half turn about y and"));
+  CHECK(compared({.alpha = 90, .traction = 0.01}).starts_with("mirror x and mirror z through"));
+  CHECK(compared({.cells = CellType::hex27, .alpha = 45}).starts_with("half turn about y and"));
+  CHECK(compared({.cells = CellType::hex27, .across = 1}).starts_with("mirror x and mirror z and"));
+}
+
+TEST_CASE("where something says where a body is in space, its symmetry is that seen from rest") {
+  const Pulled c{.alpha = 30};
+  const Mesh mesh = strip(c);
+  const auto words = [&](const Scene& scene, ReducedScene::Seen seen) {
+    const auto part =
+        ReducedScene::find(SymmetryChoice::automatic, mesh, scene, nowhere, nullptr, seen);
+    return part ? part->words() : "";
+  };
+  const auto half_way = ReducedScene::Seen::from_half_way;
+  Scene scene = pulled_scene(c, mesh);
+  REQUIRE(words(scene, half_way).starts_with("half turn"));
+  CHECK(words(scene, ReducedScene::Seen::from_rest).starts_with("mirror y"));
+  SUBCASE("an indenter") {
+    scene.contacts = {RigidContact{
+        "ball", Sphere{1, {2, 2.1, 0}}, 0, mesh.node_sets.at("y_max"), {{1, Vec3(0, -0.1, 0)}}}};
+    CHECK(words(scene, half_way) == "");
+  }
+  SUBCASE("inertia") {
+    scene.motion = InertiaOptions{};
+    CHECK(words(scene, half_way).starts_with("mirror y"));
+  }
+  SUBCASE("ends that move in their own times") {
+    for (Prescribed& p : scene.dofs.prescribed)
+      if (p.value == 0 && p.dof % 3 == 0) {
+        p.value = -0.2;
+        p.factor = std::make_shared<const std::vector<HistoryPoint<double>>>(
+            std::vector<HistoryPoint<double>>{{0.5, 1}, {1, 1}});
+      }
+    CHECK(words(scene, half_way).starts_with("mirror y"));
+  }
 }
 
 TEST_CASE("a reduced run continues from what was written of the whole body") {

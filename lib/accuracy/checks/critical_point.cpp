@@ -118,64 +118,21 @@ int node_at(const Grid& grid, const std::vector<Vec3>& X, const Vec3& middle, co
   return -1;
 }
 
-// A movement of the part that breaks its symmetry, on the whole body: each node has, up to a sign
-// by component, the movement of its image in the part. Which signs is found from the part itself,
-// where nodes next to the planes of symmetry stand on both sides, so the kind is given by its
-// number: 1 and 2 change their sign under the first and the second mirror (or the half turn), 3
-// under both.
+// A movement of the part on the whole body.
 std::vector<Vec3> on_whole_body(const Run& run, const Softest& softest) {
-  const Mesh& part = run.body.mesh();
-  std::vector<Vec3> mode(run.mesh.X.size(), Vec3::Zero());
-  if (softest.kind == 0) {
-    StepRecord record;
-    for (int i = 0; i < part.n_nodes(); ++i) {
-      record.u.push_back(displacement(softest.dofs, softest.u, i));
-      record.reaction.push_back(Vec3::Zero());
-    }
-    for (const RigidContact& contact : run.increment.contacts()) {
-      ContactRecord& empty = record.contacts[contact.name];
-      empty.r.assign(contact.nodes.size(), Vec3::Zero());
-      empty.status.assign(contact.nodes.size(), 0);
-      empty.gap.assign(contact.nodes.size(), 0);
-      for (char axis : {'x', 'y', 'z'}) record.scalars["force_" + contact.name + "_" + axis] = 0;
-      if (contact.control) record.scalars["travel_" + contact.name] = 0;
-    }
-    if (const auto whole = run.reduction.whole(record)) mode = whole->u;
-    return mode;
+  VecX u = VecX::Zero(3 * static_cast<Eigen::Index>(run.body.mesh().n_nodes()));
+  StepRecord record;
+  for (int i = 0; i < run.body.mesh().n_nodes(); ++i) {
+    const Vec3 moved = displacement(softest.dofs, softest.u, i);
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) = moved;
+    record.u.push_back(moved);
   }
-  const std::string words = run.reduction.words();
-  const bool by_x = words.find("mirror x") != std::string::npos;
-  const bool by_z = words.find("mirror z") != std::string::npos;
-  const bool turn = words.find("half turn") != std::string::npos;
-  const BoundingBox box = bounding_box(run.mesh.X);
-  const Vec3 middle = box.middle();
-  const double cell = 1e-7 * box.size().norm();
-  const Grid grid = grid_of(part.X, middle, cell);
-  const bool first_changes = softest.kind & 1;
-  const bool second_changes = softest.kind & 2;
-  for (std::size_t i = 0; i < run.mesh.X.size(); ++i) {
-    const Vec3& X = run.mesh.X[i];
-    for (const Vec3& signs : {Vec3(1, 1, 1), Vec3(-1, 1, 1), Vec3(1, 1, -1), Vec3(-1, 1, -1)}) {
-      const bool x = signs[0] < 0;
-      const bool z = signs[2] < 0;
-      bool changes = false;
-      if (turn) {
-        if (x != z) continue;
-        changes = x && first_changes;
-      } else {
-        if ((x && !by_x) || (z && !by_z)) continue;
-        const bool z_changes = by_x ? second_changes : first_changes;
-        changes = (x && first_changes) != (z && z_changes);
-      }
-      const Vec3 place = middle + signs.cwiseProduct(X - middle);
-      const int node = node_at(grid, part.X, middle, place, cell);
-      if (node < 0) continue;
-      const Vec3 u = displacement(softest.dofs, softest.u, node);
-      mode[i] = (changes ? -1 : 1) * signs.cwiseProduct(u);
-      break;
-    }
-  }
-  return mode;
+  if (const ReducedScene* part = run.reduction.part())
+    return part->whole_movement(run.mesh, u, softest.kind);
+  if (!run.reduction.point()) return record.u;
+  record.reaction.assign(record.u.size(), Vec3::Zero());
+  if (const auto whole = run.reduction.whole(record)) return whole->u;
+  return std::vector<Vec3>(run.mesh.X.size(), Vec3::Zero());
 }
 
 // How the mode behaves under mirrors in the middle planes of the body.

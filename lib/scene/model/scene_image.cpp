@@ -68,8 +68,9 @@ bool is_image(const Prescribed& image, const Prescribed& of, double sign) {
   const auto near = [&](double a, double b, double size) {
     return std::abs(a - sign * b) <= same_place * size;
   };
-  if (!near(image.value, of.value, std::abs(of.value)) || !same_factor(image.factor, of.factor))
-    return false;
+  const bool held = image.value == 0 && of.value == 0;  // at any time, whatever the history
+  if (!held && !same_factor(image.factor, of.factor)) return false;
+  if (!near(image.value, of.value, std::abs(of.value))) return false;
   if (!image.turn || !of.turn) return !image.turn && !of.turn;
   const Turn &a = *image.turn, &b = *of.turn;
   const double size = b.radius() + same_place;  // a component of a node on the axis is rounding

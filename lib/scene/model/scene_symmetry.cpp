@@ -26,8 +26,8 @@ struct Operation {
   const char* name;
   Vec3 signs;
 };
-const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_z{"mirror z", {1, 1, -1}},
-    half_turn{"half turn about y", {-1, 1, -1}};
+const Operation mirror_x{"mirror x", {-1, 1, 1}}, mirror_y{"mirror y", {1, -1, 1}},
+    mirror_z{"mirror z", {1, 1, -1}}, half_turn{"half turn about y", {-1, 1, -1}};
 
 // The groups that are tried for a choice, each by its generators: the first that the scene has is
 // used, so larger groups come first.
@@ -44,7 +44,15 @@ std::vector<std::vector<Operation>> operations(SymmetryChoice wanted) {
     case SymmetryChoice::half_turn:
       return {{half_turn}};
     case SymmetryChoice::automatic:
-      return {{mirror_x, mirror_z}, {half_turn}, {mirror_x}, {mirror_z}};
+      return {{mirror_x, mirror_z, mirror_y},
+              {mirror_x, mirror_z},
+              {half_turn, mirror_y},
+              {mirror_x, mirror_y},
+              {mirror_z, mirror_y},
+              {half_turn},
+              {mirror_x},
+              {mirror_z},
+              {mirror_y}};
   }
   return {};
 }
@@ -84,6 +92,7 @@ class Found {
       return nullptr;
     }
     std::optional<Generator>& found = known_[op.name];
+    if (op.signs == mirror_y.signs && !held_alike_above_and_below()) return nullptr;
     auto g = find_symmetry(mesh_, op.signs, centre_);
     const auto image_in = [&](const Scene& scene) {
       return image_of({g->signs.asDiagonal(), g->centre, g->node, g->cell}, mesh_, scene, scene);
@@ -105,6 +114,18 @@ class Found {
   const std::string& breaks() const { return breaks_; }
 
  private:
+  // Most bodies lie on something. They have no mirror along y, which is seen before their nodes are
+  // compared.
+  bool held_alike_above_and_below() const {
+    int more_above = 0;
+    for (const Prescribed& p : scene_.dofs.prescribed) {
+      const double height = mesh_.X[static_cast<std::size_t>(p.dof / 3)][1] - centre_[1];
+      if (height > 0) ++more_above;
+      if (height < 0) --more_above;
+    }
+    return more_above == 0;
+  }
+
   const Mesh& mesh_;
   const Scene& scene_;
   const Scene* varied_;
@@ -112,6 +133,49 @@ class Found {
   std::map<std::string, std::optional<Generator>> known_;
   std::string breaks_;
 };
+
+// The movement of the place half way between the ends of a body that is pulled at one of them, by
+// axis. Nothing where there is none, or where something else says where the body is in space:
+// indenters, inertia, sets that turn.
+std::vector<Prescribed> half_way(const Scene& scene) {
+  std::vector<Prescribed> all;
+  const bool free = scene.contacts.empty() && scene.surfaces.empty() && !scene.motion;
+  const bool by_volume = std::ranges::any_of(
+      scene.loads, [](const SurfaceLoad& load) { return load.volume.has_value(); });
+  if (!free || by_volume) return all;
+  for (int axis = 0; axis < 3; ++axis) {
+    double lowest = 0;
+    double highest = 0;
+    const Prescribed* moved = nullptr;
+    bool first = true;
+    for (const Prescribed& p : scene.dofs.prescribed) {
+      if (p.turn) return {};
+      if (p.dof % 3 != axis) continue;
+      lowest = first ? p.value : std::min(lowest, p.value);
+      highest = first ? p.value : std::max(highest, p.value);
+      first = false;
+      if (p.value == 0) continue;
+      if (moved && !same_factor(moved->factor, p.factor)) return {};
+      moved = &p;
+    }
+    const double middle = 0.5 * (lowest + highest);
+    if (moved && std::abs(middle) > 1e-12 * (highest - lowest))
+      all.push_back({axis, middle, moved->factor});
+  }
+  return all;
+}
+
+// The scene as it is seen from a place that moves.
+Scene seen_from(const std::vector<Prescribed>& translation, const Scene& scene) {
+  Scene seen = scene;
+  for (Prescribed& p : seen.dofs.prescribed)
+    for (const Prescribed& place : translation) {
+      if (p.dof % 3 != place.dof) continue;
+      p.value -= place.value;
+      p.factor = place.factor;
+    }
+  return seen;
+}
 
 // images of the contacts by all products of the generators, in the order of group_of
 std::vector<std::vector<int>> contact_group(const std::vector<const Generator*>& generators,
@@ -136,17 +200,29 @@ std::size_t place_of(int number, const std::vector<int>& ascending) {
 
 std::optional<ReducedScene> ReducedScene::find(
     SymmetryChoice wanted, const Mesh& mesh, const Scene& scene,
-    const std::function<Place(const std::string&)>& where, const Scene* varied) {
+    const std::function<Place(const std::string&)>& where, const Scene* varied, Seen seen) {
   if (mesh.section) return of_section(mesh, scene);
   if (wanted == SymmetryChoice::none) return std::nullopt;
   const Vec3 centre = bounding_box(mesh.X).middle();
   Found found(mesh, scene, varied, centre);
+  // Derivatives by a displacement would need those of the place.
+  std::vector<Prescribed> translation;
+  if (!varied && seen == Seen::from_half_way) translation = half_way(scene);
+  const Scene moving = seen_from(translation, scene);
+  Found found_moving(mesh, moving, nullptr, centre);
   for (const auto& operations : operations(wanted)) {
-    std::vector<const Generator*> generators;
-    for (const Operation& op : operations)
-      if (const Generator* g = found(op)) generators.push_back(g);
+    const auto all_of = [&](Found& found) {
+      std::vector<const Generator*> generators;
+      for (const Operation& op : operations)
+        if (const Generator* g = found(op)) generators.push_back(g);
+      return generators;
+    };
+    std::vector<const Generator*> generators = all_of(found);
+    const bool at_rest = generators.size() == operations.size();
+    if (!at_rest && !translation.empty()) generators = all_of(found_moving);
     if (generators.size() < operations.size()) continue;
     ReducedScene r;
+    if (!at_rest) r.translation_ = translation;
     std::vector<Symmetry> of_mesh;
     for (const Generator* g : generators) {
       of_mesh.push_back(g->mesh);
@@ -156,9 +232,13 @@ std::optional<ReducedScene> ReducedScene::find(
       for (int k = 0; k < 3; ++k)
         if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
-    r.take_part(mesh, scene, of_mesh, contact_group(generators, scene.contacts.size()));
-    r.words_ += fmt::format(" through ({:g}, {:g}): {} of {} cells", centre[0], centre[2],
-                            r.quotient_.cell.size(), mesh.n_cells());
+    r.take_part(mesh, at_rest ? scene : moving, of_mesh,
+                contact_group(generators, scene.contacts.size()));
+    std::string place = fmt::format("{:g}, {:g}", centre[0], centre[2]);
+    if (operations.back().signs == mirror_y.signs)
+      place = fmt::format("{:g}, {:g}, {:g}", centre[0], centre[1], centre[2]);
+    r.words_ += fmt::format(" through ({}): {} of {} cells", place, r.quotient_.cell.size(),
+                            mesh.n_cells());
     return r;
   }
   if (wanted == SymmetryChoice::automatic) return std::nullopt;
@@ -435,6 +515,13 @@ ReducedScene ReducedScene::of_section(const Mesh& mesh, const Scene& scene) {
   return r;
 }
 
+// How far the place from which the part is seen has moved at t.
+Vec3 ReducedScene::translation_at(double t) const {
+  Vec3 moved = Vec3::Zero();
+  for (const Prescribed& p : translation_) moved[p.dof] = p.at(t);
+  return moved;
+}
+
 // The step of the whole body. Displacements and forces are turned to the place of the image; a
 // force is divided among the images, since the part carries those of all of them.
 StepRecord ReducedScene::whole(const StepRecord& reduced) const {
@@ -442,11 +529,12 @@ StepRecord ReducedScene::whole(const StepRecord& reduced) const {
   record.u.clear();
   record.reaction.clear();
   const bool section = quotient_.mesh.section.has_value();
+  const Vec3 moved = translation_at(load_factor_of(reduced));
   for (const Image& image : quotient_.node_image) {
     const bool behind =
         section &&
         image.of != static_cast<int>(record.u.size());  // those in z = 0 have all of the force
-    record.u.push_back(image.T * reduced.u[image.of]);
+    record.u.push_back(image.T * reduced.u[image.of] + moved);
     record.reaction.push_back(
         behind ? Vec3::Zero()
                : Vec3(image.T * reduced.reaction[image.of] / quotient_.node_share[image.of]));
@@ -560,11 +648,12 @@ void ReducedScene::update_turned_families(const StepRecord& reduced, StepRecord&
 BodyState ReducedScene::reduced(const StepRecord& whole) const {
   BodyState state;
   state.t = whole.t;
+  const Vec3 moved = translation_at(load_factor_of(whole));
   state.u = VecX::Zero(3 * static_cast<Eigen::Index>(quotient_.node.size()));
   for (std::size_t i = 0; i < quotient_.node.size(); ++i)
     if (quotient_.tie[i].of == static_cast<int>(i))
       state.u.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          whole.u[static_cast<std::size_t>(quotient_.node[i])];
+          whole.u[static_cast<std::size_t>(quotient_.node[i])] - moved;
   if (scene_.motion) {
     const auto kept = [&](const std::vector<Vec3>& of_whole, bool shared) {
       VecX out = VecX::Zero(state.u.size());

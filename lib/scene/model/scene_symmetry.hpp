@@ -4,6 +4,8 @@
 //                    their paths; all of them must agree
 //   two indenters    of which one is the other's image: the part has one of them, or half of both; each has its own force in results
 //   two surfaces     that touch each other, of mirror planes that no cell crosses; not in motion, and no surface that touches itself
+//   up to a movement as a rigid body   of bodies without contact and not in motion: where one end is held and the other pulled, the
+//                    displacements are symmetric as seen from half way between them
 //   not recognised   indenters read from a file; planes and axes that are not parallel to the coordinate planes or do not pass
 //                    through the middle of the body
 // The reduced scene finds symmetric equilibria only: it cannot leave them where they become
@@ -33,10 +35,12 @@ class ReducedScene {
   // varied: the scene with other numbers, which has to have the symmetry too, where derivatives
   // with respect to them are asked for. Throws Failure(config) where a named symmetry is not there,
   // saying what breaks it.
+  enum class Seen { from_rest, from_half_way };  // the latter where the former has no symmetry
   static std::optional<ReducedScene> find(SymmetryChoice wanted, const Mesh& mesh,
                                           const Scene& scene,
                                           const std::function<Place(const std::string&)>& where,
-                                          const Scene* varied = nullptr);
+                                          const Scene* varied = nullptr,
+                                          Seen seen = Seen::from_half_way);
 
   const Mesh& mesh() const { return quotient_.mesh; }
   const Scene& scene() const { return scene_; }
@@ -74,6 +78,7 @@ class ReducedScene {
   };
   static void append_image(const ContactRecord& kept, std::size_t of, const Mat3& T, double share,
                            ContactRecord& images);
+  Vec3 translation_at(double t) const;
   static ReducedScene of_section(const Mesh& mesh, const Scene& scene);
   void take_part(const Mesh& mesh, const Scene& scene, const std::vector<Symmetry>& generators,
                  const std::vector<std::vector<int>>& contacts);
@@ -95,6 +100,7 @@ class ReducedScene {
   std::vector<Vec3> generators_;  // signs of each
   Vec3 centre_ = Vec3::Zero();
   std::string words_;
+  std::vector<Prescribed> translation_;  // of the place from which the part is seen, by axis (dof)
   bool swaps_indenters_ = false;
   std::vector<RigidContact> contacts_;  // of the whole body
   std::vector<std::vector<CandidateImage>>

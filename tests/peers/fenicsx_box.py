@@ -1,0 +1,185 @@
+"""FEniCSx on a box without contact: python3 fenicsx_box.py strip|suction|hold edge [increments]
+Q2 displacements and discontinuous linear pressure (mixed) as in fenicsx.py; Newton with step halving and MUMPS, increments start from
+an extrapolation. The scenes are those of box_scenes.py."""
+import sys
+
+import numpy as np
+import ufl
+from dolfinx import fem, mesh
+from dolfinx.fem import petsc
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import box_scenes
+import scene as peers
+
+name, edge = sys.argv[1], float(sys.argv[2])
+scene = box_scenes.SCENES[name]
+increments = int(sys.argv[3]) if len(sys.argv) > 3 else scene["increments"]
+fast = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
+
+size, divisions = scene["size"], box_scenes.divisions(name, edge)
+body = mesh.create_box(MPI.COMM_WORLD, [np.zeros(3), np.array(size)], divisions, mesh.CellType.hexahedron)
+element = ufl.MixedElement(ufl.VectorElement("Lagrange", ufl.hexahedron, 2), ufl.FiniteElement("DPC", ufl.hexahedron, 1))
+space = fem.FunctionSpace(body, element)
+d = fem.Constant(body, PETSc.ScalarType(1e-6))
+degree = {"quadrature_degree": 4}
+facets = mesh.locate_entities_boundary(body, 2, scene.get("pressed", lambda x: np.isclose(x[0], -1)))
+tags = mesh.meshtags(body, 2, np.sort(facets), np.ones(len(facets), dtype=np.int32))
+dx, ds = ufl.Measure("dx", body, metadata=degree), ufl.Measure("ds", body, subdomain_data=tags, metadata=degree)(1)
+
+conditions, prescribed = [], []
+for where, axis, value in scene["held"]:
+    part = space.sub(0).sub(axis)
+    values = fem.Function(part.collapse()[0])
+    dofs = fem.locate_dofs_geometrical((part, part.collapse()[0]), where)
+    conditions.append(fem.dirichletbc(values, dofs, part))
+    prescribed.append((values, value))
+
+w, test = fem.Function(space), ufl.TestFunction(space)
+u, p = ufl.split(w)
+F = ufl.Identity(3) + ufl.grad(u)
+J = ufl.det(F)
+
+
+def elastic_energy(F):
+    J = ufl.det(F)
+    law = scene["law"]
+    I1 = J ** (-2 / 3) * ufl.inner(F, F) - 3
+    energy = sum(a * I1 ** (i + 1) for i, a in enumerate(law["a"]))
+    if "c1" in law:
+        alpha = np.radians(law["alpha"])
+        fibre = F * ufl.as_vector((np.cos(alpha), 0.0, np.sin(alpha)))
+        stretched = J ** (-2 / 3) * ufl.inner(fibre, fibre) - 1
+        stretched = ufl.conditional(ufl.gt(stretched, 0), stretched, 0)
+        energy += law["c1"] / (2 * law["c2"]) * (ufl.exp(law["c2"] * stretched**2) - 1)
+    return energy
+
+
+residual = ufl.derivative((elastic_energy(F) + p * (J - 1) - d / 4 * p**2) * dx, w, test)
+pressure = fem.Constant(body, PETSc.ScalarType(0.0))
+if "pressure" in scene:  # follows the surface
+    normal = ufl.FacetNormal(body)
+    residual += pressure * J * ufl.inner(ufl.dot(ufl.inv(F).T, normal), ufl.split(test)[0]) * ds
+
+# viscous branches: overstresses at the quadrature points,
+#   Q' + Q / tau = gamma S',   Q(n+1) = keep Q(n) + follow (S(n+1) - S(n)),   S = F^-1 dW/dF
+branches, kept = scene.get("branches", []), []
+if branches:
+    points = ufl.TensorElement("Quadrature", ufl.hexahedron, degree=4, quad_scheme="default", shape=(3, 3))
+    at_points = fem.FunctionSpace(body, points)
+    F_of = ufl.variable(F)
+    S = ufl.dot(ufl.inv(F), ufl.diff(elastic_energy(F_of), F_of))
+    S_old = fem.Function(at_points)
+    overstress = 0
+    for gamma, tau in branches:
+        Q_old = fem.Function(at_points)
+        keep_share, follow = (fem.Constant(body, PETSc.ScalarType(0.0)) for _ in range(2))
+        Q = keep_share * Q_old + follow * (S - S_old)
+        kept.append((Q_old, Q, keep_share, follow, gamma, tau))
+        overstress += Q
+    residual += ufl.inner(ufl.dot(F, overstress), ufl.grad(ufl.split(test)[0])) * dx
+    import basix
+
+    places, _ = basix.make_quadrature(basix.CellType.hexahedron, 4)
+    S_now = fem.Expression(S, places, jit_params=fast)
+    Q_now = [fem.Expression(Q, places, jit_params=fast) for _, Q, *_ in kept]
+    all_cells = np.arange(body.topology.index_map(3).size_local, dtype=np.int32)
+
+linear, bilinear = (fem.form(f, jit_params=fast) for f in (residual, ufl.derivative(residual, w)))
+matrix, right, step = petsc.create_matrix(bilinear), petsc.create_vector(linear), petsc.create_vector(linear)
+factor = PETSc.KSP().create(MPI.COMM_WORLD)
+factor.setOperators(matrix)
+factor.setType("preonly")
+factor.getPC().setType("lu")
+factor.getPC().setFactorSolverType("mumps")
+
+
+def unbalanced():
+    with right.localForm() as values:
+        values.set(0)
+    petsc.assemble_vector(right, linear)
+    petsc.apply_lifting(right, [bilinear], [conditions], [w.vector], -1.0)
+    fem.set_bc(right, conditions, w.vector, -1.0)
+    return right.norm()
+
+
+def newton():
+    size = unbalanced()
+    for _ in range(25):
+        if not np.isfinite(size):
+            return False
+        matrix.zeroEntries()
+        petsc.assemble_matrix(matrix, bilinear, conditions)
+        matrix.assemble()
+        factor.solve(right, step)
+        here, part = w.x.array.copy(), 1.0
+        while True:
+            w.x.array[:] = here - part * step.array
+            new = unbalanced()
+            if new < size or (part == 1 and np.isfinite(new) and new < 1e-6) or part < 0.05:
+                break
+            part /= 2
+        size = new
+        if part == 1 and np.abs(step.array).max() < 1e-2 and size < 1e-6:
+            return True
+    return False
+
+
+earlier = [w.x.array.copy(), w.x.array.copy(), 0.0, 0.0]  # the last two states and their t
+
+
+def seconds(t):
+    """of the path at t: a ramp for the first half of the increments, the hold for the rest"""
+    ramp, hold = scene.get("seconds", (1, 0))
+    return ramp * min(t / 0.5, 1) + hold * max(0, t / 0.5 - 1) if hold else ramp * t
+
+
+def load(t):
+    return min(t / 0.5, 1) if "seconds" in scene else t
+
+
+def solve(t):
+    for values, value in prescribed:
+        values.x.array[:] = load(t) * value
+    pressure.value = load(t) * scene.get("pressure", 0)
+    before, last, t_before, t_last = earlier
+    for Q_old, _, keep_share, follow, gamma, tau in kept:
+        x = (seconds(t) - seconds(t_last)) / tau
+        keep_share.value, follow.value = np.exp(-x), gamma * -np.expm1(-x) / x
+    if t_last > t_before and load(t) > load(t_last):
+        w.x.array[:] = last + (load(t) - load(t_last)) / (load(t_last) - load(t_before)) * (last - before)
+    if not newton():
+        return False
+    if kept:
+        new = [expression.eval(all_cells).ravel() for expression in Q_now]
+        S_old.x.array[:] = S_now.eval(all_cells).ravel()
+        for (Q_old, *_), values in zip(kept, new):
+            Q_old.x.array[:] = values
+    earlier[:] = [last, w.x.array.copy(), t_last, t]
+    return True
+
+
+def keep():
+    pass
+
+
+def back():
+    w.x.array[:] = earlier[1]
+
+
+peers.along_path(solve, keep, back, increments)
+unknowns = space.dofmap.index_map.size_global * space.dofmap.index_map_bs
+if "pressure" in scene:
+    found = w.sub(0).collapse()
+    places = found.function_space.tabulate_dof_coordinates()
+    apex = np.linalg.norm(places - np.array(scene["apex"]), axis=1).argmin()
+    value = found.x.array.reshape(-1, 3)[apex, 1]
+else:
+    # the reaction: what the unconstrained residual does on a unit movement of the pulled end
+    with right.localForm() as values:
+        values.set(0)
+    petsc.assemble_vector(right, linear)
+    dofs = fem.locate_dofs_geometrical((space.sub(0).sub(0), space.sub(0).sub(0).collapse()[0]), scene["pulled"])[0]
+    value = right.array[dofs].sum()
+peers.say(force=float(abs(value)), penetration=0.0, unknowns=unknowns)
