@@ -41,7 +41,7 @@ bench-peers: build
 	@$(MAKE) --no-print-directory deps packages="$(peer_packages)"
 	@[ -n "$(KEEP)" ] || rm -rf runs/peers
 	@/usr/bin/python3 tests/peers/run.py $(build)/bin runs/peers
-	@for scene in isotropic positive; do for what in levels runs; do \
+	@for scene in isotropic positive strip suction hold; do for what in levels runs; do \
 	  /usr/bin/python3 tests/peers/table.py $$what runs/peers/peers.csv $$scene > runs/peers/table.md && \
 	  tests/soak/page docs/peers.md $${scene}_$$what runs/peers/table.md || exit 1; done; done
 	@/usr/bin/python3 tests/peers/table.py picture runs/peers/peers.csv isotropic | gnuplot > docs/peers.svg

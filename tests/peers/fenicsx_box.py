@@ -85,6 +85,14 @@ if branches:
     S_now = fem.Expression(S, places, jit_params=fast)
     Q_now = [fem.Expression(Q, places, jit_params=fast) for _, Q, *_ in kept]
     all_cells = np.arange(body.topology.index_map(3).size_local, dtype=np.int32)
+    of_cell = at_points.dofmap.list.array.reshape(len(all_cells), -1)
+    new = [fem.Function(at_points) for _ in kept]
+
+
+def put(function, expression):
+    """the values of an expression at the quadrature points"""
+    function.x.array.reshape(-1, 9)[of_cell] = expression.eval(all_cells).reshape(*of_cell.shape, 9)
+
 
 linear, bilinear = (fem.form(f, jit_params=fast) for f in (residual, ufl.derivative(residual, w)))
 matrix, right, step = petsc.create_matrix(bilinear), petsc.create_vector(linear), petsc.create_vector(linear)
@@ -139,6 +147,18 @@ def load(t):
     return min(t / 0.5, 1) if "seconds" in scene else t
 
 
+reaction = [0.0]
+
+
+def reaction_of_pulled_end():
+    """what the residual without conditions does there"""
+    with right.localForm() as values:
+        values.set(0)
+    petsc.assemble_vector(right, linear)
+    part = space.sub(0).sub(0)
+    return right.array[fem.locate_dofs_geometrical((part, part.collapse()[0]), scene["pulled"])[0]].sum()
+
+
 def solve(t):
     for values, value in prescribed:
         values.x.array[:] = load(t) * value
@@ -151,11 +171,14 @@ def solve(t):
         w.x.array[:] = last + (load(t) - load(t_last)) / (load(t_last) - load(t_before)) * (last - before)
     if not newton():
         return False
+    if "pressure" not in scene:
+        reaction[0] = reaction_of_pulled_end()  # before the branches go on
     if kept:
-        new = [expression.eval(all_cells).ravel() for expression in Q_now]
-        S_old.x.array[:] = S_now.eval(all_cells).ravel()
+        for values, expression in zip(new, Q_now):
+            put(values, expression)
+        put(S_old, S_now)
         for (Q_old, *_), values in zip(kept, new):
-            Q_old.x.array[:] = values
+            Q_old.x.array[:] = values.x.array
     earlier[:] = [last, w.x.array.copy(), t_last, t]
     return True
 
@@ -176,10 +199,5 @@ if "pressure" in scene:
     apex = np.linalg.norm(places - np.array(scene["apex"]), axis=1).argmin()
     value = found.x.array.reshape(-1, 3)[apex, 1]
 else:
-    # the reaction: what the unconstrained residual does on a unit movement of the pulled end
-    with right.localForm() as values:
-        values.set(0)
-    petsc.assemble_vector(right, linear)
-    dofs = fem.locate_dofs_geometrical((space.sub(0).sub(0), space.sub(0).sub(0).collapse()[0]), scene["pulled"])[0]
-    value = right.array[dofs].sum()
+    value = reaction[0]
 peers.say(force=float(abs(value)), penetration=0.0, unknowns=unknowns)

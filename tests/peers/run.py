@@ -1,6 +1,9 @@
 """make bench-peers: one indentation on the same cells by Langer, CalculiX, GetFEM, FEniCSx and, where it is installed, FEBio.
 
-    run.py <folder of Langer's programs> <folder of the results> [scene ...]       scenes: isotropic positive
+    run.py <folder of Langer's programs> <folder of the results> [scene ...]       scenes: isotropic positive strip suction hold
+
+strip, suction and hold are boxes without contact (box_scenes.py), for Langer and FEniCSx. What is compared is a force, of suction the
+height of the apex in mm; the column is force_N in all of them.
 
 peers.csv has one line per run: force, its error, CPU seconds (user and system, one thread), memory, how far the sphere is in the body.
 A run that is there already is not run again; PEERS_TOOLS names those that run. Who takes more than LIMIT CPU seconds is stopped,
@@ -20,11 +23,13 @@ LIMIT = float(os.environ.get("PEERS_LIMIT", 150))
 TOOLS = os.environ.get("PEERS_TOOLS", "Langer CalculiX GetFEM FEniCSx FEBio").split()
 here = Path(__file__).resolve().parent
 root, programs, folder = here.parents[1], Path(sys.argv[1]).resolve(), Path(sys.argv[2])
-scenes = sys.argv[3:] or ["isotropic", "positive"]
+scenes = sys.argv[3:] or ["isotropic", "positive", "strip", "suction", "hold"]
 folder.mkdir(parents=True, exist_ok=True)
 PYTHON = "/usr/bin/python3" if Path("/usr/bin/python3").exists() else sys.executable  # Debian's, which has the peers
 # N at 1 mm: what hex8 of 0.125 to 0.0707 contact radii extrapolate to at a length of 0 (make work-precision)
 REFERENCE = {"isotropic": 10.765, "positive": 12.671}
+# of the boxes: what the finest runs of hex27 extrapolate to
+REFERENCE.update(strip=4.112, suction=0.4961, hold=4.546)
 COLUMNS = ["scene", "tool", "cells", "edge", "settings", "unknowns", "force_N", "error_percent", "cpu_s", "memory_MB", "inside_um", "words"]
 
 table = folder / "peers.csv"
@@ -141,6 +146,88 @@ def deck_of(scene, cells, edge, increments, d, ending="inp"):
         langer(scene, cells, edge, increments, solution, law)
     call(programs / "langer-post", "--solution", solution, "--export", deck, "--quiet")
     return deck
+
+
+# boxes without contact
+
+STRIP_YAML = """mesh:
+  geometry: {{block: {{size: [30, 1, 10], divisions: [{divisions}]}}}}
+  cells: {cells}
+supports: [{{on: x_min, hold: [x, y, z]}}, {{on: x_max, hold: [y, z]}}]
+loads: [{{on: x_max, displacement: {{x: {to}}}}}]
+material:
+  matrix: {{yeoh: {{a1: 0.269, a2: 0.376, a3: 0.415}}}}
+  fibres: [{{hgo: {{c1: 0.317, c2: 0.319}}, alpha: 45}}]
+  volume: {{quadratic: {{d: 1.0e-6}}}}{viscous}
+stability: off
+path: {{{path}}}
+"""
+BRANCHES = "\n  viscous: [{gamma: 0.5, tau: 1}, {gamma: 0.3, tau: 10}]"
+SUCTION_YAML = """mesh:
+  geometry: {{block: {{origin: [-6, 0, -6], size: [12, 4, 12], divisions: [{divisions}]}}}}
+  cells: {cells}
+  sets:
+    hole: {{of: top, within: {{box: {{from: [-2, 0, -2], to: [2, 4, 2]}}}}}}
+    left: {{of: top, within: {{box: {{from: [-6, 0, -6], to: [-2, 4, 6]}}}}}}
+    right: {{of: top, within: {{box: {{from: [2, 0, -6], to: [6, 4, 6]}}}}}}
+    front: {{of: top, within: {{box: {{from: [-6, 0, -6], to: [6, 4, -2]}}}}}}
+    back: {{of: top, within: {{box: {{from: [-6, 0, 2], to: [6, 4, 6]}}}}}}
+  points: {{apex: [0, 4, 0]}}
+supports:
+  - {{on: bottom, hold: [x, y, z]}}
+  - {{on: left, hold: [x, y, z]}}
+  - {{on: right, hold: [x, y, z]}}
+  - {{on: front, hold: [x, y, z]}}
+  - {{on: back, hold: [x, y, z]}}
+loads: [{{on: hole, pressure: -0.03}}]
+material:
+  matrix: {{yeoh: {{a1: 0.012, a2: 0.03, a3: 0.01}}}}
+  volume: {{quadratic: {{d: 1.0e-6}}}}
+stability: off
+path: {{{path}}}
+"""
+
+
+def box_config(scene, cells, edge, increments):
+    parts = [max(1, round(length / edge)) for length in ((12, 4, 12) if scene == "suction" else (30, 1, 10))]
+    path = f"first: {1 / increments}, largest: {1 / increments}"
+    if scene == "suction":
+        return SUCTION_YAML.format(divisions=", ".join(map(str, parts)), cells=cells, path=path)
+    to, viscous = "6", ""
+    if scene == "hold":  # increments: of the ramp and of the hold together, as in fenicsx_box.py
+        to, viscous = "[{s: 1, to: 6}, {s: 11, to: 6}]", BRANCHES
+        path = f"seconds: 11, first: {2 / increments}, largest: {2 / increments}"
+    return STRIP_YAML.format(divisions=", ".join(map(str, parts)), cells=cells, path=path, to=to, viscous=viscous)
+
+
+def langer_box(scene, cells, edge, increments):
+    config, solution = (folder / f"box.{ending}" for ending in ("yaml", "h5"))
+    config.write_text(box_config(scene, cells, edge, increments))
+    command = [programs / "langer-solve", config.resolve(), "-o", solution.resolve(), "--quiet", "--json"]
+    cpu, memory, code, said = measured(command, root, folder / "langer.log")
+    if code:
+        return cpu, memory, {"words": ended(cpu, code, said)}
+    column = "{quantity: u_y, at: apex}" if scene == "suction" else "{quantity: reaction_x, at: x_max}"
+    post = folder / "box_post.yaml"
+    post.write_text(f"columns: [{column}]\n")
+    call(programs / "langer-post", post.resolve(), "--solution", solution.resolve(), "-o", (folder / "box_post.h5").resolve())
+    value = float(list(csv.reader(open(folder / "box_post.csv")))[-1][0])
+    return cpu, memory, {"force": abs(value), "penetration": 0.0}
+
+
+def fenicsx_box(scene, edge, increments):
+    cpu, memory, code, said = measured([PYTHON, here / "fenicsx_box.py", scene, edge, increments], here, folder / "fenicsx_box.log")
+    return cpu, memory, said_json(cpu, code, said)
+
+
+def box(scene, runs, peers):
+    """runs of Langer: cells, edge, increments; of FEniCSx: edge, increments"""
+    for cells, edge, steps in runs:
+        record(scene, "Langer", cells, edge, f"{steps} increments", lambda: langer_box(scene, cells, edge, steps))
+    if "FEniCSx" in TOOLS and subprocess.run([PYTHON, "-c", "import dolfinx"], capture_output=True).returncode == 0:
+        fenicsx_box(scene, max(edge for edge, _ in peers), peers[0][1])  # compiles its kernels: not counted
+        for edge, steps in peers:
+            record(scene, "FEniCSx", "Q2/P1", edge, f"{steps} increments d=1e-06", lambda: fenicsx_box(scene, edge, steps))
 
 
 # CalculiX
@@ -267,5 +354,25 @@ def positive():
         record(s, "FEBio", "hex8", 0.25, "10 increments d=0.001", lambda: febio(s, "hex8", 0.25, 10, 1e-3))
 
 
+def strip():
+    """a clamped strip with fibres at 45 degrees, pulled by a fifth"""
+    box("strip", [("hex27", 2.5, 2), ("hex27", 1.25, 2), ("hex27", 1, 2), ("hex27", 0.625, 2), ("hex27", 0.5, 2), ("hex27", 0.5, 4), ("hex27", 0.3333, 4),
+                  ("hex8", 0.5, 2), ("hex8", 0.25, 2)],
+        [(2.5, 2), (1.25, 2), (1, 2), (0.625, 2), (0.5, 2), (0.5, 4)])
+
+
+def suction():
+    """soft isotropic skin sucked into a square hole of 4 mm"""
+    box("suction", [("hex27", 1, 3), ("hex27", 1, 5), ("hex27", 0.6667, 3), ("hex27", 0.6667, 5), ("hex27", 0.5, 5), ("hex27", 0.3333, 5), ("hex8", 0.5, 5),
+                    ("hex8", 0.3333, 5), ("hex8", 0.25, 5)],
+        [(1, 3), (1, 5), (0.6667, 3), (0.6667, 5), (0.5, 3), (0.5, 5)])
+
+
+def hold():
+    """the strip with two viscous branches, pulled in 1 s and held for 10 s"""
+    box("hold", [("hex27", 2.5, 16), ("hex27", 1.25, 16), ("hex27", 1, 16), ("hex27", 1, 64), ("hex27", 0.5, 32), ("hex27", 0.5, 64)],
+        [(2.5, 16), (1.25, 16), (1, 16), (1, 32), (1, 64), (0.5, 32)])
+
+
 for scene in scenes:
-    {"isotropic": isotropic, "positive": positive}[scene]()
+    {"isotropic": isotropic, "positive": positive, "strip": strip, "suction": suction, "hold": hold}[scene]()

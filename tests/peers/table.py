@@ -42,7 +42,8 @@ def shown(text, form):
 
 
 if what == "runs":
-    print("| tool | cells | edge, mm | settings | force, N | error, % | CPU s | MB | sphere inside, um | |\n|" + " --- |" * 10)
+    value = "apex, mm" if scene == "suction" else "force, N"
+    print(f"| tool | cells | edge, mm | settings | {value} | error, % | CPU s | MB | sphere inside, um | |\n|" + " --- |" * 10)
     for r in rows:
         failed = not r["force_N"]
         cells = [r["tool"], r["cells"], r["edge"], r["settings"], shown(r["force_N"], "%.5g"), shown(r["error_percent"], "%+.2f"),
@@ -50,7 +51,8 @@ if what == "runs":
                  f"**{r['words']}**" if failed else r["words"]]
         print("| " + " | ".join(cells) + " |")
 elif what == "levels":
-    levels = [2, 1, 0.5, 0.2] if scene == "isotropic" else [2, 1]  # nearer than that the reference is not known well enough
+    # nearer than the last of them the reference is not known well enough
+    levels = {"isotropic": [2, 1, 0.5, 0.2], "positive": [2, 1]}.get(scene, [2, 1, 0.5])
     print("| tool |" + "".join(f" within {p:g} %: CPU s |" for p in levels) + "\n|" + " --- |" * (1 + len(levels)))
     best = {}
     for tool in tools:
