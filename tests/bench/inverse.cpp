@@ -24,6 +24,7 @@
 #include "identification/setup/fit_config_io.hpp"
 #include "identification/setup/fit_report.hpp"
 #include "identification/setup/priors.hpp"
+#include "identification/statistics/study.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
 
@@ -112,8 +113,8 @@ void measure_inverse_coverage() {
 namespace {
 
 // How many of the intervals of a1, a2 and a3 hold the truth in one fit; nothing without an optimum.
-// by_posterior: intervals are quantiles of samples instead.
-std::optional<std::array<bool, 3>> held_by(const std::string& yaml, bool by_posterior) {
+enum class IntervalsBy { standard_errors, profiles, posterior };
+std::optional<std::array<bool, 3>> held_by(const std::string& yaml, IntervalsBy by) {
   const auto loaded = read_config<FitConfig>(parse_yaml(yaml, "fit.yaml", folder));
   FitProblem problem = fit_problem(loaded.config);
   InverseFit inverse({"bench", true, false}, loaded.config, loaded.where, problem, {}, "");
@@ -126,12 +127,26 @@ std::optional<std::array<bool, 3>> held_by(const std::string& yaml, bool by_post
   }
   const FitRecord record = fit_record(problem, found);
   RecordTable samples;
-  if (by_posterior)
-    samples = costly_posterior(inverse.costly(), found, PosteriorConfig{}, 1).posterior.table;
+  StudyRecord studied;
+  if (by != IntervalsBy::standard_errors) {
+    const CostlyPosterior sampled = costly_posterior(inverse.costly(), found, PosteriorConfig{}, 1);
+    samples = sampled.posterior.table;
+    // profiles of the polynomials: those of the scenes take a minute for each seed
+    StudyConfig config;
+    config.profiles = true;
+    config.bootstrap = 0;
+    if (by == IntervalsBy::profiles)
+      studied = study(inverse.costly().problem_with(sampled.polynomials), found, config);
+  }
   std::array<bool, 3> held{};
   for (std::size_t i = 0; i < 3; ++i) {
     auto [low, high] = interval_95(record.parameters[i]);
-    if (by_posterior) {
+    if (by == IntervalsBy::profiles) {
+      const auto& profile = studied.identifiability->profiles[i];
+      low = profile.low_open ? -1 : profile.low;
+      high = profile.high_open ? 1e9 : profile.high;
+    }
+    if (by == IntervalsBy::posterior) {
       low = samples.column("lower_95").values[i];
       high = samples.column("upper_95").values[i];
     }
@@ -151,10 +166,13 @@ void measure_thickness_prior() {
       "indentation of a disc of 4 mm, noise of 2 mN, thickness measured with an error of 10 %, {} seeds:\n"
       "95 % intervals that hold a1, a2, a3\n| thickness | a1 | a2 | a3 | no optimum |\n| --- | --- | --- | --- | --- |\n",
       seeds);
-  for (const char* row : {"held at what was measured", "a parameter with its prior",
-                          "the same, by samples of the posterior"}) {
-    const bool free = row[0] != 'h';
-    const bool by_posterior = row[0] == 't';
+  const std::tuple<const char*, bool, IntervalsBy> rows[] = {
+      {"held at what was measured", false, IntervalsBy::standard_errors},
+      {"a parameter with its prior", true, IntervalsBy::standard_errors},
+      {"the same, by profiles", true, IntervalsBy::profiles},
+      {"the same, by samples of the posterior", true, IntervalsBy::posterior}};
+  for (const auto& [row, is_free, by] : rows) {
+    const bool free = is_free;
     std::array<int, 3> held{};
     int failed = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -170,7 +188,7 @@ void measure_thickness_prior() {
                   fmt::format(", {{key: \"mesh.geometry.indented_disc.size[1]\", lower: 1.5, "
                               "upper: 8, prior: {{normal: [{}, {}]}}}}",
                               measured, deviation));
-      const auto one = held_by(yaml, by_posterior);
+      const auto one = held_by(yaml, by);
       if (!one) {
         ++failed;
         continue;

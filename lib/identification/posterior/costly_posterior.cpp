@@ -239,6 +239,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
     now.degree = best_degree(costly, runs, fit, points, known);
     const auto tests = std::make_shared<PolynomialTests>(*costly.tests, points, now.degree);
     const FitProblem approximate = costly.problem_with(tests);
+    now.polynomials = tests;
     now.posterior = posterior(approximate, fit, config, threads);
     const std::vector<VecX> samples = some_samples(now.posterior, checks_each, seed, round);
     const std::vector<ModelPoint> checked = runs.at(samples);

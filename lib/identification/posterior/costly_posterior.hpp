@@ -40,6 +40,7 @@ struct CostlyPosterior {
   bool reached = true;  // the shift that was asked for
   int proposals = 0;    // runs at samples that were proposed; 0: the samples are of polynomials
   double accepted = 0;  // share of them
+  std::shared_ptr<PolynomialTests> polynomials;  // what was sampled, or made the proposals
 };
 
 // Throws Failure(not_converged) where too few runs have an end.
