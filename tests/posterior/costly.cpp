@@ -236,6 +236,7 @@ TEST_CASE("the budget of runs is kept, and what it does not reach is said") {
   const CostlyPosterior found = costly_posterior(one.costly, one.fit, config, 1);
   CHECK(found.runs <= 60);
   CHECK_FALSE(found.reached);
+  CHECK(found.proposals == 0);
   const auto warnings = costly_posterior_warnings(found, config);
   REQUIRE_FALSE(warnings.empty());
   CHECK(warnings.back().find("study.posterior.runs") != std::string::npos);

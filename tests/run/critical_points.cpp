@@ -358,4 +358,18 @@ TEST_CASE("cap: a path with arc lengths goes on with the same digits after a kil
   CHECK(rest.critical->t == whole.critical->t);
 }
 
+TEST_CASE("the length of an arc is that of displacements as they are seen from rest") {
+  const auto words = [](const std::string& path) {
+    const SolveConfig config = test::config_of(
+        "mesh: {geometry: {block: {size: [4, 1, 2], divisions: [4, 1, 2]}}}\n"
+        "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-2}}}\n"
+        "supports: [{on: x_min, hold: [x, y, z]}, {on: x_max, hold: [y, z]}]\n"
+        "loads: [{on: x_max, displacement: {x: 0.4}}]\npath: " +
+        path + "\n");
+    return Run(test::mesh_in(config), config, config.material, test::nowhere).reduction.words();
+  };
+  CHECK(words("{steps: 2}").starts_with("symmetry: mirror x and mirror z"));
+  CHECK(words("{steps: 2, arc_length: {length: 0.4}}").starts_with("symmetry: mirror z"));
+}
+
 }  // namespace critical_points_tests

@@ -19,6 +19,8 @@ namespace {
 constexpr int highest_degree = 5;
 constexpr double first_width = 1.5;  // of the first points, in deviations of the estimate
 constexpr std::size_t checks_each = 30;
+// Fewer runs make samples whose quantiles are known worse than those of polynomials.
+constexpr std::size_t fewest_proposals = 500;
 
 // Runs the costly tests at sets of parameters, and keeps what they give.
 class Runs {
@@ -220,7 +222,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
   // enough for a polynomial of degree two, and a third of them to judge it
   const std::size_t begin = std::max<std::size_t>(24, 3 * coefficients(n, 2) / 2);
   std::vector<ModelPoint> points =
-      runs.at(first_points(costly, fit, std::min(begin, budget), seed));
+      runs.at(first_points(costly, fit, std::min(begin, budget - checks_each), seed));
   std::size_t known = 2 * points.size() / 3;
   if (known < static_cast<std::size_t>(n) + 1)
     throw Failure(
@@ -229,7 +231,8 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
               "study.posterior",
               fmt::format("{} of {} runs around the estimate have no end", runs.without, runs.made),
               "runs with an end",
-              "shorter increments of the scenes, or narrower bounds or priors"});
+              "shorter increments of the scenes, narrower bounds or priors, or more "
+              "study.posterior.runs"});
   CostlyPosterior best;
   FitProblem best_problem;
   double least_refused = std::numeric_limits<double>::infinity();
@@ -266,7 +269,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
     points.insert(points.end(), checked.begin(), checked.end());
   }
   const std::size_t left = budget - std::min(budget, static_cast<std::size_t>(runs.made));
-  if (!best.reached && left >= 10 * static_cast<std::size_t>(config.chains))
+  if (!best.reached && left >= fewest_proposals)
     accept_by_runs(costly, runs, best_problem, fit, config, threads, left, best);
   best.runs = runs.made;
   best.without = runs.without;

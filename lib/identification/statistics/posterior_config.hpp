@@ -27,7 +27,7 @@ struct PosteriorConfig {
       between(0.5, 0.99));
     v(&PosteriorConfig::runs, "runs", unit::none,
       "of a fit with scenes: sets of parameters at which scenes are solved, at most",
-      between(40, 100000));
+      between(60, 100000));
     v(&PosteriorConfig::shift, "shift", unit::none,
       "of a fit with scenes: standard deviations by which a mean may be off, because polynomials "
       "are sampled instead of scenes",

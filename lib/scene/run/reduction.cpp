@@ -31,8 +31,13 @@ Reduction Reduction::find(const Mesh& mesh, const Scene& scene, const SolveConfi
   if (at_a_point && !scene.motion && !parameters.turns_fibres() && !parameters.moves_mesh())
     if (auto point = HomogeneousScene::find(mesh, scene, config))
       return {mesh, scene, std::move(point)};
-  if (config.sensitivity.empty())
-    return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where), config.threads};
+  if (config.sensitivity.empty()) {
+    // the length of an arc is that of displacements as they are seen from rest
+    auto seen = ReducedScene::Seen::from_half_way;
+    if (config.path.arc_length) seen = ReducedScene::Seen::from_rest;
+    return {mesh, scene, ReducedScene::find(wanted, mesh, scene, where, nullptr, seen),
+            config.threads};
+  }
   const Scene varied = parameters.varied_unlike(scene, mesh);
   if (mesh.section)
     if (const auto errors = section_errors(config, mesh, varied, where); !errors.empty())
