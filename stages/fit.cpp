@@ -165,9 +165,10 @@ Posterior sampled_posterior(const Job<FitConfig>& job, const FitProblem& problem
   std::vector<std::string> lines, warnings;
   Posterior sampled;
   if (scenes) {
-    const CostlyPosterior costly =
-        costly_posterior(scenes->costly(), found, asked, threads,
-                         [&](const std::string& line) { job.detail("{}", line); });
+    const CostlyPosterior costly = costly_posterior(
+        scenes->costly(), found, asked, threads,
+        [&](const std::string& line) { job.detail("{}", line); },
+        progress_of("fit", "posterior", job.quiet));
     lines = costly_posterior_lines(costly);
     warnings = costly_posterior_warnings(costly, asked);
     sampled = costly.posterior;

@@ -159,7 +159,8 @@ std::vector<VecX> shuffled(const Posterior& sampled, std::uint64_t seed) {
 // replaces the last sample, a refused one repeats it.
 void accept_by_runs(const CostlyTests& costly, Runs& runs, const FitProblem& approximate,
                     const FitResult& fit, const PosteriorConfig& config, int threads,
-                    std::size_t budget, CostlyPosterior& result) {
+                    std::size_t budget, const std::function<void(double)>& progress,
+                    CostlyPosterior& result) {
   constexpr Eigen::Index not_counted = 5;  // of each chain: its start is a proposal
   constexpr int thinning = 4;              // so that neighbours are independent
   const auto seed = static_cast<std::uint64_t>(config.seed);
@@ -171,7 +172,13 @@ void accept_by_runs(const CostlyTests& costly, Runs& runs, const FitProblem& app
   Posterior& sampled = result.posterior;
   std::vector<VecX> proposals = shuffled(sampled, seed);
   proposals.resize(count / chains * chains);
-  if (costly.run_ahead) costly.run_ahead(proposals);
+  for (std::size_t done = 0; done < proposals.size(); done += checks_each) {
+    const std::size_t end = std::min(done + checks_each, proposals.size());
+    if (costly.run_ahead)
+      costly.run_ahead({proposals.begin() + static_cast<std::ptrdiff_t>(done),
+                        proposals.begin() + static_cast<std::ptrdiff_t>(end)});
+    if (progress) progress(static_cast<double>(end) / static_cast<double>(proposals.size()));
+  }
   runs.made += static_cast<int>(proposals.size());
   const VecX ratios = log_ratios(runs, approximate, fit, proposals);
   const auto each = static_cast<Eigen::Index>(proposals.size() / chains);
@@ -212,7 +219,8 @@ void accept_by_runs(const CostlyTests& costly, Runs& runs, const FitProblem& app
 
 CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit,
                                  const PosteriorConfig& config, int threads,
-                                 const std::function<void(const std::string&)>& say) {
+                                 const std::function<void(const std::string&)>& say,
+                                 const std::function<void(double)>& progress) {
   constexpr double better = 0.8;       // of what was refused: worth another polynomial
   constexpr int fruitless_rounds = 2;  // in a row, after which polynomials are as good as they get
   const auto seed = static_cast<std::uint64_t>(config.seed);
@@ -270,7 +278,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
   }
   const std::size_t left = budget - std::min(budget, static_cast<std::size_t>(runs.made));
   if (!best.reached && left >= fewest_proposals)
-    accept_by_runs(costly, runs, best_problem, fit, config, threads, left, best);
+    accept_by_runs(costly, runs, best_problem, fit, config, threads, left, progress, best);
   best.runs = runs.made;
   best.without = runs.without;
   return best;

@@ -43,10 +43,12 @@ struct CostlyPosterior {
   std::shared_ptr<PolynomialTests> polynomials;  // what was sampled, or made the proposals
 };
 
-// Throws Failure(not_converged) where too few runs have an end.
+// Throws Failure(not_converged) where too few runs have an end. say: a line for each polynomial;
+// progress: the share of the proposals that were run.
 CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit,
                                  const PosteriorConfig& config, int threads,
-                                 const std::function<void(const std::string&)>& say = {});
+                                 const std::function<void(const std::string&)>& say = {},
+                                 const std::function<void(double)>& progress = {});
 
 std::vector<std::string> costly_posterior_lines(const CostlyPosterior& sampled);
 std::vector<std::string> costly_posterior_warnings(const CostlyPosterior& sampled,
