@@ -40,6 +40,7 @@ class Curve : public FurtherTests {
     values.resize(points);
     for (Eigen::Index i = 0; i < points; ++i)
       values[i] = p[0] * (1 - std::exp(-p[1] * x(i))) + bend_ * std::max(0., x(i) - p[1]);
+    if (p[1] > jumps_at) values.array() += jump;
     return true;
   }
   bool slope(const VecX& p, MatX& J) override {
@@ -53,6 +54,7 @@ class Curve : public FurtherTests {
   }
   int calls = 0;
   double no_model_above = 1e9;
+  double jump = 0, jumps_at = 1e9;  // of all values, where p[1] is larger
 
  private:
   static constexpr Eigen::Index points = 30;
@@ -202,6 +204,8 @@ TEST_CASE("a bound in the middle of a posterior is a wall, not a place of more s
 
 TEST_CASE("where a model has kinks, samples of polynomials are judged by runs") {
   const Asked one = asked(1.2);
+  one.curve->jumps_at = one.fit.best.p[1];
+  one.curve->jump = 0.02;
   PosteriorConfig config;
   config.samples = 6000;
   config.runs = 6000;
