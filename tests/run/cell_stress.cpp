@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "core/tensor/stress.hpp"

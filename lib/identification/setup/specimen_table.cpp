@@ -238,15 +238,15 @@ struct Expansion {
     if (!where || where->map.empty()) return;  // SpecimensConfig::complaints() says what is missing
     const CsvTable data = read_table(path);
     std::set<std::vector<std::string>> measured;
+    std::vector<std::string> columns;
+    for (const CsvCell& cell : data.header.cells) columns.push_back(cell.text);
     std::vector<std::size_t> at;
     for (const Tree::Entry& one : where->map) {
       const auto head = std::ranges::find(data.header.cells, one.key, &CsvCell::text);
       if (head == data.header.cells.end())
         refuse_entry(one.value.place, "specimens.where." + one.key,
                      fmt::format("{} has no column of this name", path),
-                     fmt::format("one of {}", fmt::join(data.header.cells |
-                                                            std::views::transform(&CsvCell::text),
-                                                        ", ")));
+                     fmt::format("one of {}", fmt::join(columns, ", ")));
       at.push_back(static_cast<std::size_t>(head - data.header.cells.begin()));
     }
     const auto texts_of = [&](const CsvRow& row) {
