@@ -7,19 +7,17 @@ import sys
 import numpy as np
 import ufl
 from dolfinx import fem, mesh
-from dolfinx.fem import petsc
 from mpi4py import MPI
 from petsc4py import PETSc
 
 import scene as peers
+from fenicsx_common import Newton, isochoric_energy
 
 deck = peers.read_deck(sys.argv[1])
 law = peers.LAWS[sys.argv[2] if len(sys.argv) > 2 else "isotropic"]
 d = float(sys.argv[3]) if len(sys.argv) > 3 else 1e-6
 penalty = float(sys.argv[4]) if len(sys.argv) > 4 else 1e3  # MPa/mm
 increments = int(sys.argv[5]) if len(sys.argv) > 5 else 10
-
-fast = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
 
 cells = deck.cells[:, peers.TENSOR_ORDER]
 body = mesh.create_mesh(MPI.COMM_WORLD, cells, deck.nodes, ufl.Mesh(ufl.VectorElement("Lagrange", ufl.hexahedron, 1)))
@@ -52,14 +50,7 @@ w, old = fem.Function(space), fem.Function(space)
 u, p = ufl.split(w)
 F = ufl.Identity(3) + ufl.grad(u)
 J = ufl.det(F)
-I1 = J ** (-2 / 3) * ufl.inner(F, F) - 3
-energy = sum(a * I1 ** (i + 1) for i, a in enumerate(law["a"])) + p * (J - 1) - d / 4 * p**2
-if "c1" in law:
-    alpha = np.radians(law["alpha"])
-    fibre = F * ufl.as_vector((np.cos(alpha), 0.0, np.sin(alpha)))
-    stretched = J ** (-2 / 3) * ufl.inner(fibre, fibre) - 1
-    stretched = ufl.conditional(ufl.gt(stretched, 0), stretched, 0)
-    energy += law["c1"] / (2 * law["c2"]) * (ufl.exp(law["c2"] * stretched**2) - 1)
+energy = isochoric_energy(F, law) + p * (J - 1) - d / 4 * p**2
 
 moved = fem.Constant(body, PETSc.ScalarType((0.0, 0.0, 0.0)))
 moved_before = fem.Constant(body, PETSc.ScalarType((0.0, 0.0, 0.0)))
@@ -76,46 +67,7 @@ if deck.friction > 0:
     little = 1e-3  # mm: below it stick is a spring
     residual += deck.friction * pressure * ufl.inner(slip, ufl.split(test)[0]) / ufl.sqrt(ufl.inner(slip, slip) + little**2) * ds
 
-linear, bilinear = (fem.form(f, jit_params=fast) for f in (residual, ufl.derivative(residual, w)))
-matrix, right, step = petsc.create_matrix(bilinear), petsc.create_vector(linear), petsc.create_vector(linear)
-factor = PETSc.KSP().create(MPI.COMM_WORLD)
-factor.setOperators(matrix)
-factor.setType("preonly")
-factor.getPC().setType("lu")
-factor.getPC().setFactorSolverType("mumps")
-
-
-def unbalanced():
-    with right.localForm() as values:
-        values.set(0)
-    petsc.assemble_vector(right, linear)
-    fem.set_bc(right, conditions, w.vector, -1)  # what is held is zero and stays so
-    return right.norm()
-
-
-def newton():
-    size = unbalanced()
-    for _ in range(25):
-        if not np.isfinite(size):
-            return False
-        matrix.zeroEntries()
-        petsc.assemble_matrix(matrix, bilinear, conditions)
-        matrix.assemble()
-        factor.solve(right, step)
-        here, part = w.x.array.copy(), 1.0
-        while True:
-            w.x.array[:] = here - part * step.array
-            new = unbalanced()
-            if new < size or (part == 1 and np.isfinite(new) and new < 1e-6) or part < 0.05:
-                break
-            part /= 2
-        size = new
-        if part == 1 and np.abs(step.array).max() < 1e-2 and size < tolerance:
-            return True
-    return False
-
-
-tolerance = 1e-6  # N
+newton = Newton(residual, w, conditions, lifted=False)
 earlier = [w.x.array.copy(), w.x.array.copy(), 0.0, 0.0]  # the last two states and their t
 
 
@@ -124,7 +76,7 @@ def solve(t):
     before, last, t_before, t_last = earlier
     if t_last > t_before:
         w.x.array[:] = last + (t - t_last) / (t_last - t_before) * (last - before)
-    if not newton():
+    if not newton.solve():
         return False
     earlier[:] = [last, w.x.array.copy(), t_last, t]
     return True

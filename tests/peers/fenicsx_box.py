@@ -6,17 +6,16 @@ import sys
 import numpy as np
 import ufl
 from dolfinx import fem, mesh
-from dolfinx.fem import petsc
 from mpi4py import MPI
 from petsc4py import PETSc
 
 import box_scenes
 import scene as peers
+from fenicsx_common import FAST, Newton, isochoric_energy
 
 name, edge = sys.argv[1], float(sys.argv[2])
 scene = box_scenes.SCENES[name]
 increments = int(sys.argv[3]) if len(sys.argv) > 3 else scene["increments"]
-fast = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
 
 size, divisions = scene["size"], box_scenes.divisions(name, edge)
 body = mesh.create_box(MPI.COMM_WORLD, [np.zeros(3), np.array(size)], divisions, mesh.CellType.hexahedron)
@@ -42,21 +41,7 @@ F = ufl.Identity(3) + ufl.grad(u)
 J = ufl.det(F)
 
 
-def elastic_energy(F):
-    J = ufl.det(F)
-    law = scene["law"]
-    I1 = J ** (-2 / 3) * ufl.inner(F, F) - 3
-    energy = sum(a * I1 ** (i + 1) for i, a in enumerate(law["a"]))
-    if "c1" in law:
-        alpha = np.radians(law["alpha"])
-        fibre = F * ufl.as_vector((np.cos(alpha), 0.0, np.sin(alpha)))
-        stretched = J ** (-2 / 3) * ufl.inner(fibre, fibre) - 1
-        stretched = ufl.conditional(ufl.gt(stretched, 0), stretched, 0)
-        energy += law["c1"] / (2 * law["c2"]) * (ufl.exp(law["c2"] * stretched**2) - 1)
-    return energy
-
-
-residual = ufl.derivative((elastic_energy(F) + p * (J - 1) - d / 4 * p**2) * dx, w, test)
+residual = ufl.derivative((isochoric_energy(F, scene["law"]) + p * (J - 1) - d / 4 * p**2) * dx, w, test)
 pressure = fem.Constant(body, PETSc.ScalarType(0.0))
 if "pressure" in scene:  # follows the surface
     normal = ufl.FacetNormal(body)
@@ -69,7 +54,7 @@ if branches:
     points = ufl.TensorElement("Quadrature", ufl.hexahedron, degree=4, quad_scheme="default", shape=(3, 3))
     at_points = fem.FunctionSpace(body, points)
     F_of = ufl.variable(F)
-    S = ufl.dot(ufl.inv(F), ufl.diff(elastic_energy(F_of), F_of))
+    S = ufl.dot(ufl.inv(F), ufl.diff(isochoric_energy(F_of, scene["law"]), F_of))
     S_old = fem.Function(at_points)
     overstress = 0
     for gamma, tau in branches:
@@ -82,8 +67,8 @@ if branches:
     import basix
 
     places, _ = basix.make_quadrature(basix.CellType.hexahedron, 4)
-    S_now = fem.Expression(S, places, jit_params=fast)
-    Q_now = [fem.Expression(Q, places, jit_params=fast) for _, Q, *_ in kept]
+    S_now = fem.Expression(S, places, jit_params=FAST)
+    Q_now = [fem.Expression(Q, places, jit_params=FAST) for _, Q, *_ in kept]
     all_cells = np.arange(body.topology.index_map(3).size_local, dtype=np.int32)
     of_cell = at_points.dofmap.list.array.reshape(len(all_cells), -1)
     new = [fem.Function(at_points) for _ in kept]
@@ -94,46 +79,7 @@ def put(function, expression):
     function.x.array.reshape(-1, 9)[of_cell] = expression.eval(all_cells).reshape(*of_cell.shape, 9)
 
 
-linear, bilinear = (fem.form(f, jit_params=fast) for f in (residual, ufl.derivative(residual, w)))
-matrix, right, step = petsc.create_matrix(bilinear), petsc.create_vector(linear), petsc.create_vector(linear)
-factor = PETSc.KSP().create(MPI.COMM_WORLD)
-factor.setOperators(matrix)
-factor.setType("preonly")
-factor.getPC().setType("lu")
-factor.getPC().setFactorSolverType("mumps")
-
-
-def unbalanced():
-    with right.localForm() as values:
-        values.set(0)
-    petsc.assemble_vector(right, linear)
-    petsc.apply_lifting(right, [bilinear], [conditions], [w.vector], -1.0)
-    fem.set_bc(right, conditions, w.vector, -1.0)
-    return right.norm()
-
-
-def newton():
-    size = unbalanced()
-    for _ in range(25):
-        if not np.isfinite(size):
-            return False
-        matrix.zeroEntries()
-        petsc.assemble_matrix(matrix, bilinear, conditions)
-        matrix.assemble()
-        factor.solve(right, step)
-        here, part = w.x.array.copy(), 1.0
-        while True:
-            w.x.array[:] = here - part * step.array
-            new = unbalanced()
-            if new < size or (part == 1 and np.isfinite(new) and new < 1e-6) or part < 0.05:
-                break
-            part /= 2
-        size = new
-        if part == 1 and np.abs(step.array).max() < 1e-2 and size < 1e-6:
-            return True
-    return False
-
-
+newton = Newton(residual, w, conditions, lifted=True)
 earlier = [w.x.array.copy(), w.x.array.copy(), 0.0, 0.0]  # the last two states and their t
 
 
@@ -152,11 +98,8 @@ reaction = [0.0]
 
 def reaction_of_pulled_end():
     """what the residual without conditions does there"""
-    with right.localForm() as values:
-        values.set(0)
-    petsc.assemble_vector(right, linear)
     part = space.sub(0).sub(0)
-    return right.array[fem.locate_dofs_geometrical((part, part.collapse()[0]), scene["pulled"])[0]].sum()
+    return newton.assembled().array[fem.locate_dofs_geometrical((part, part.collapse()[0]), scene["pulled"])[0]].sum()
 
 
 def solve(t):
@@ -169,7 +112,7 @@ def solve(t):
         keep_share.value, follow.value = np.exp(-x), gamma * -np.expm1(-x) / x
     if t_last > t_before and load(t) > load(t_last):
         w.x.array[:] = last + (load(t) - load(t_last)) / (load(t_last) - load(t_before)) * (last - before)
-    if not newton():
+    if not newton.solve():
         return False
     if "pressure" not in scene:
         reaction[0] = reaction_of_pulled_end()  # before the branches go on

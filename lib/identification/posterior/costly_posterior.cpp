@@ -44,8 +44,14 @@ class Runs {
     return points;
   }
 
-  // ln of the density by the tests themselves, at the place of p
-  double log_density(const VecX& p) { return truth_.value(truth_.place(p)); }
+  // ln of the density of each set of parameters by the tests themselves
+  VecX log_densities(std::span<const VecX> points) {
+    VecX all(static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      all[static_cast<Eigen::Index>(i)] = truth_.of_parameters(points[i]);
+    return all;
+  }
+  FitDensity& truth() { return truth_; }
 
   int made = 0, without = 0;
 
@@ -54,14 +60,13 @@ class Runs {
   FitDensity truth_;
 };
 
-// ln of the density of the scenes over that of polynomials, at each point
-VecX log_ratios(Runs& runs, const FitProblem& approximate, const FitResult& fit,
+// ln of the density of the scenes, `truth`, over that of polynomials, at each point
+VecX log_ratios(const VecX& truth, const FitProblem& approximate, const FitResult& fit,
                 std::span<const VecX> points) {
   FitDensity density(approximate, fit);
-  VecX ratios(static_cast<Eigen::Index>(points.size()));
+  VecX ratios = truth;
   for (std::size_t i = 0; i < points.size(); ++i)
-    ratios[static_cast<Eigen::Index>(i)] =
-        runs.log_density(points[i]) - density.value(density.place(points[i]));
+    ratios[static_cast<Eigen::Index>(i)] -= density.of_parameters(points[i]);
   return ratios;
 }
 
@@ -98,13 +103,14 @@ int best_degree(const CostlyTests& costly, Runs& runs, const FitResult& fit,
   const std::vector<ModelPoint> first(points.begin(),
                                       points.begin() + static_cast<std::ptrdiff_t>(known));
   const std::vector<VecX> others = numbers_of(std::span(points).subspan(known));
+  const VecX truth = runs.log_densities(others);
   const Eigen::Index n = points.front().p.size();
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int degree = 1; degree <= highest_degree; ++degree) {
     if (degree > 1 && 2 * coefficients(n, degree) > known * static_cast<std::size_t>(n + 1)) break;
     const auto tests = std::make_shared<PolynomialTests>(*costly.tests, first, degree);
-    const VecX ratios = log_ratios(runs, costly.problem_with(tests), fit, others);
+    const VecX ratios = log_ratios(truth, costly.problem_with(tests), fit, others);
     // spread of the ratios; unlike the shift it tells apart what is far off
     const double spread = (ratios.array() - ratios.mean()).matrix().norm();
     // of two that are alike the simpler one
@@ -117,9 +123,8 @@ int best_degree(const CostlyTests& costly, Runs& runs, const FitResult& fit,
 }
 
 // Places around the estimate, as wide as the model that is straight there would have its posterior.
-std::vector<VecX> first_points(const CostlyTests& costly, const FitResult& fit, std::size_t count,
+std::vector<VecX> first_points(FitDensity& density, const FitResult& fit, std::size_t count,
                                std::uint64_t seed) {
-  FitDensity density(costly.problem_with(costly.tests), fit);
   const VecX centre = density.place(fit.best.p);
   const MatX root = Cholesky(density.scale(centre)).L();
   std::vector<VecX> points{density.numbers(centre)};
@@ -127,9 +132,7 @@ std::vector<VecX> first_points(const CostlyTests& costly, const FitResult& fit, 
     Random random(seed + 991, i);
     VecX z(centre.size());
     for (double& one : z) one = random.normal();
-    const VecX x = centre + first_width * (root * z);
-    points.push_back(
-        density.numbers(x.cwiseMax(density.lower_walls()).cwiseMin(density.upper_walls())));
+    points.push_back(density.numbers(density.between_walls(centre + first_width * (root * z))));
   }
   return points;
 }
@@ -180,7 +183,8 @@ void accept_by_runs(const CostlyTests& costly, Runs& runs, const FitProblem& app
     if (progress) progress(static_cast<double>(end) / static_cast<double>(proposals.size()));
   }
   runs.made += static_cast<int>(proposals.size());
-  const VecX ratios = log_ratios(runs, approximate, fit, proposals);
+  const VecX truth = runs.log_densities(proposals);
+  const VecX ratios = log_ratios(truth, approximate, fit, proposals);
   const auto each = static_cast<Eigen::Index>(proposals.size() / chains);
   const Eigen::Index counted = each - not_counted;
   sampled.samples.resize(counted * sampled.chains, fit.best.p.size());
@@ -202,7 +206,7 @@ void accept_by_runs(const CostlyTests& costly, Runs& runs, const FitProblem& app
       const Eigen::Index row = chain * counted + i - not_counted;
       const VecX& p = proposals[static_cast<std::size_t>(current)];
       sampled.samples.row(row) = p.transpose();
-      sampled.log_density[row] = runs.log_density(p);
+      sampled.log_density[row] = truth[current] + runs.truth().log_slope(runs.truth().place(p));
     }
   }
   result.proposals = static_cast<int>(proposals.size());
@@ -230,7 +234,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
   // enough for a polynomial of degree two, and a third of them to judge it
   const std::size_t begin = std::max<std::size_t>(24, 3 * coefficients(n, 2) / 2);
   std::vector<ModelPoint> points =
-      runs.at(first_points(costly, fit, std::min(begin, budget - checks_each), seed));
+      runs.at(first_points(runs.truth(), fit, std::min(begin, budget - checks_each), seed));
   std::size_t known = 2 * points.size() / 3;
   if (known < static_cast<std::size_t>(n) + 1)
     throw Failure(
@@ -254,7 +258,7 @@ CostlyPosterior costly_posterior(const CostlyTests& costly, const FitResult& fit
     now.posterior = posterior(approximate, fit, config, threads);
     const std::vector<VecX> samples = some_samples(now.posterior, checks_each, seed, round);
     const std::vector<ModelPoint> checked = runs.at(samples);
-    const VecX ratios = log_ratios(runs, approximate, fit, samples);
+    const VecX ratios = log_ratios(runs.log_densities(samples), approximate, fit, samples);
     const double refused = refused_of(ratios);
     now.shift = shift_of(ratios);
     now.checks = static_cast<int>(samples.size());

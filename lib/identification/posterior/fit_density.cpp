@@ -134,26 +134,32 @@ void FitDensity::turn_to_estimate(VecX& p) const {
   }
 }
 
-// ln of the density by the residual u and the scale of x
-double FitDensity::of_residual(const VecX& x, const VecX& u) const {
+double FitDensity::of_residual(const VecX& u) const {
   const double square = u.squaredNorm();
-  double value = -0.5 * square;
-  if (!known_noise_) value = -0.5 * static_cast<double>(u.size()) * std::log(square);
+  if (known_noise_) return -0.5 * square;
+  return -0.5 * static_cast<double>(u.size()) * std::log(square);
+}
+
+double FitDensity::of_parameters(const VecX& p) {
+  VecX u;
+  if (!p.allFinite() || !model_.residual(p, u) || !u.allFinite())
+    return -std::numeric_limits<double>::infinity();
+  return of_residual(u);
+}
+
+double FitDensity::log_slope(const VecX& x) const {
+  double sum = 0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double slope = free_[static_cast<std::size_t>(i)].slope(x[i]);
     // so far out that the parameter is at its bound to the last digit
     if (!(slope > 0)) return -std::numeric_limits<double>::infinity();
-    value += std::log(slope);
+    sum += std::log(slope);
   }
-  return value;
+  return sum;
 }
 
-double FitDensity::value(const VecX& x) {
-  const VecX p = numbers(x);
-  VecX u;
-  if (!p.allFinite() || !model_.residual(p, u) || !u.allFinite())
-    return -std::numeric_limits<double>::infinity();
-  return of_residual(x, u);
+VecX FitDensity::between_walls(const VecX& x) const {
+  return x.cwiseMax(lower_walls()).cwiseMin(upper_walls());
 }
 
 double FitDensity::operator()(const VecX& x, VecX& gradient) {
@@ -170,7 +176,7 @@ double FitDensity::operator()(const VecX& x, VecX& gradient) {
     const FreeNumber& one = free_[static_cast<std::size_t>(i)];
     gradient[i] = gradient[i] * one.slope(x[i]) + one.curvature(x[i]);
   }
-  return of_residual(x, u);
+  return of_residual(u) + log_slope(x);
 }
 
 MatX FitDensity::scale(const VecX& x) {

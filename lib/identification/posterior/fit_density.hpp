@@ -37,12 +37,15 @@ class FitDensity {
 
   // ln of the density at x but for a constant, and its gradient (p); -infinity where there is none
   double operator()(const VecX& x, VecX& gradient);
-  double value(const VecX& x);  // the same without a gradient
+  // ln of the density of the parameters p themselves, which no choice of x changes; likewise
+  double of_parameters(const VecX& p);
+  double log_slope(const VecX& x) const;  // ln |dp/dx|: the density at x is that of p times |dp/dx|
+  VecX between_walls(const VecX& x) const;  // moved to the nearest place that walls allow
   // The covariance of x by the curvature of the density at x.
   MatX scale(const VecX& x);
 
  private:
-  double of_residual(const VecX& x, const VecX& u) const;
+  double of_residual(const VecX& u) const;
   void set_walls();
   bool curvature_of_tests(const VecX& p, MatX& H);
 

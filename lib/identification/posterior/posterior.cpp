@@ -68,10 +68,7 @@ Posterior posterior(const FitProblem& problem, const FitResult& fit, const Poste
         NutsOptions options;
         options.lower = density.lower_walls();
         options.upper = density.upper_walls();
-        const auto between_walls = [&](const VecX& x) -> VecX {
-          return x.cwiseMax(options.lower).cwiseMin(options.upper);
-        };
-        VecX begin = between_walls(start + 2 * (root * z));
+        VecX begin = density.between_walls(start + 2 * (root * z));
         VecX gradient;
         for (int i = 0; i < 20 && !std::isfinite(density(begin, gradient)); ++i)
           begin = 0.5 * (begin + start);

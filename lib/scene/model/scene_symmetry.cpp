@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -144,23 +145,21 @@ std::vector<Prescribed> half_way(const Scene& scene) {
       scene.loads, [](const SurfaceLoad& load) { return load.volume.has_value(); });
   if (!free || by_volume) return all;
   for (int axis = 0; axis < 3; ++axis) {
-    double lowest = 0;
-    double highest = 0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
     const Prescribed* moved = nullptr;
-    bool first = true;
     for (const Prescribed& p : scene.dofs.prescribed) {
       if (p.turn) return {};
       if (p.dof % 3 != axis) continue;
-      lowest = first ? p.value : std::min(lowest, p.value);
-      highest = first ? p.value : std::max(highest, p.value);
-      first = false;
+      lowest = std::min(lowest, p.value);
+      highest = std::max(highest, p.value);
       if (p.value == 0) continue;
       if (moved && !same_factor(moved->factor, p.factor)) return {};
       moved = &p;
     }
+    if (!moved) continue;
     const double middle = 0.5 * (lowest + highest);
-    if (moved && std::abs(middle) > 1e-12 * (highest - lowest))
-      all.push_back({axis, middle, moved->factor});
+    if (std::abs(middle) > 1e-12 * (highest - lowest)) all.push_back({axis, middle, moved->factor});
   }
   return all;
 }
@@ -208,8 +207,10 @@ std::optional<ReducedScene> ReducedScene::find(
   // Derivatives by a displacement would need those of the place.
   std::vector<Prescribed> translation;
   if (!varied && seen == Seen::from_half_way) translation = half_way(scene);
-  const Scene moving = seen_from(translation, scene);
-  Found found_moving(mesh, moving, nullptr, centre);
+  std::optional<Scene> moving;  // a copy, where there is something to see
+  std::optional<Found> found_moving;
+  if (!translation.empty())
+    found_moving.emplace(mesh, moving.emplace(seen_from(translation, scene)), nullptr, centre);
   for (const auto& operations : operations(wanted)) {
     const auto all_of = [&](Found& found) {
       std::vector<const Generator*> generators;
@@ -219,7 +220,7 @@ std::optional<ReducedScene> ReducedScene::find(
     };
     std::vector<const Generator*> generators = all_of(found);
     const bool at_rest = generators.size() == operations.size();
-    if (!at_rest && !translation.empty()) generators = all_of(found_moving);
+    if (!at_rest && found_moving) generators = all_of(*found_moving);
     if (generators.size() < operations.size()) continue;
     ReducedScene r;
     if (!at_rest) r.translation_ = translation;
@@ -232,7 +233,7 @@ std::optional<ReducedScene> ReducedScene::find(
       for (int k = 0; k < 3; ++k)
         if (g->mesh.signs[k] < 0) r.kept_directions_[k] = 0;
     }
-    r.take_part(mesh, at_rest ? scene : moving, of_mesh,
+    r.take_part(mesh, at_rest ? scene : *moving, of_mesh,
                 contact_group(generators, scene.contacts.size()));
     std::string place = fmt::format("{:g}, {:g}", centre[0], centre[2]);
     if (operations.back().signs == mirror_y.signs)
