@@ -4,97 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <random>
+
+#include "random_scenes/parts.hpp"
 
 namespace langer::test {
 
 namespace {
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : rng_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * std::generate_canonical<double, 53>(rng_);
-  }
-  double logarithmic(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  bool coin(double chance = 0.5) { return uniform(0, 1) < chance; }
-  std::size_t below(std::size_t n) {
-    return static_cast<std::size_t>(uniform(0, static_cast<double>(n)));
-  }
-
- private:
-  std::mt19937_64 rng_;
-};
-
-double rounded(double x) { return std::stod(fmt::format("{:.3g}", x)); }
-
-// as stiff as skin times `scale`; families of fibres: at most so many
-std::string material(Draw& draw, double scale = 1, int families = 2) {
-  const double mu = rounded(scale * draw.logarithmic(0.02, 0.5));  // half the shear modulus [MPa]
-  const std::string matrices[]{
-      fmt::format("neo_hooke: {{a1: {:g}}}", mu),
-      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, 0.5 * mu, 0.2 * mu),
-      fmt::format("gent: {{mu: {:g}, Jm: {:.3g}}}", 2 * mu, draw.uniform(5, 30)),
-      fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
-  std::string fibres;
-  const auto n = draw.below(static_cast<std::size_t>(families) + 1);
-  for (std::size_t i = 0; i < n; ++i)
-    fibres +=
-        fmt::format("{}{{hgo: {{c1: {:g}, c2: {:.3g}}}, alpha: {:.3g}, kappa: {:.2g}}}",
-                    i ? ", " : "", rounded(mu * draw.logarithmic(0.1, 3)), draw.uniform(0.1, 2),
-                    draw.uniform(-90, 90), draw.coin() ? 0 : draw.uniform(0, 0.33));
-  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}{}}}",
-                     matrices[draw.below(4)], rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu),
-                     n ? ", fibres: [" + fibres + "]" : "");
-}
-
-// a block under indenters of about this radius and depth
-struct Pressed {
-  double R, H, depth, a;  // radius of a sphere and of its contact, thickness [mm]
-  double half;            // of the sides
-  double friction;
-};
-
-Pressed pressed(Draw& draw, double H_in_a_low, double H_in_a_high) {
-  Pressed p;
-  p.R = rounded(draw.logarithmic(0.5, 20));
-  const double share = draw.uniform(0.05, 0.35);  // of the radius
-  p.a = p.R * std::sqrt(share * (2 - share));
-  p.H = rounded(p.a * draw.uniform(H_in_a_low, H_in_a_high));
-  p.depth = rounded(std::min(share * p.R, 0.3 * p.H));
-  p.a = std::sqrt(p.depth * (2 * p.R - p.depth));
-  p.half = rounded(std::max(3 * p.H, draw.uniform(3, 6) * p.a));
-  p.friction = draw.coin() ? 0 : rounded(draw.uniform(0.05, 1));
-  return p;
-}
-
-std::string block_of(const Pressed& p, const std::string& more = "") {
-  return fmt::format(
-      "mesh: {{geometry: {{indented_block: {{origin: [{:g}, 0, {:g}], size: [{:g}, {:g}, {:g}], radius: {:g}, "
-      "depth: {:g}}}}}{}}}\nsupports: [{{on: bottom, hold: [x, y, z]}}]\n",
-      -p.half, -p.half, 2 * p.half, p.H, 2 * p.half, p.R, p.depth, more);
-}
-
-std::string contact_of(const std::string& name, const std::string& shape, const Pressed& p,
-                       const std::string& to) {
-  return fmt::format("  {}: {{rigid: {}, friction: {:g}, motion: [{}]}}\n", name, shape, p.friction,
-                     to);
-}
-
-std::string sphere_at(const Pressed& p, double x, double z) {
-  return fmt::format("{{sphere: {{radius: {:g}, centre: [{:g}, {:.10g}, {:g}]}}}}", p.R, x,
-                     p.H + p.R, z);
-}
-
-std::string down(const Pressed& p) { return fmt::format("{{t: 1, to: [0, {:g}, 0]}}", -p.depth); }
-
-std::string of(const Pressed& p, const std::string& law, const std::string& contacts,
-               const std::string& more = "") {
-  return block_of(p, more) + "material: " + law + "\ncontacts:\n" + contacts + "stability: off\n";
-}
 
 std::string centred(Draw& draw) {
   const Pressed p = pressed(draw, 1.2, 4);
@@ -237,16 +152,6 @@ std::string pressed_disc(Draw& draw, On shape, bool thin, bool layered) {
          contact_of("tool", shapes[static_cast<std::size_t>(shape)], p, to) + "stability: off\n";
 }
 
-std::string soft_matrix(Draw& draw, double mu) {
-  const std::string matrices[]{
-      fmt::format("neo_hooke: {{a1: {:g}}}", mu),
-      fmt::format("yeoh: {{a1: {:g}, a2: {:g}, a3: {:g}}}", mu, rounded(mu * draw.uniform(0.3, 3)),
-                  0.5 * mu),
-      fmt::format("ogden: {{mu1: {:g}, alpha1: {:.3g}}}", mu, draw.uniform(2, 6))};
-  return fmt::format("{{matrix: {{{}}}, volume: {{quadratic: {{d: {:g}}}}}}}",
-                     matrices[draw.below(3)], rounded(draw.logarithmic(1e-4, 1e-2) * 0.01 / mu));
-}
-
 // Skin that is sucked into a hole, on its section: under a ring that is stuck to it, or a plate
 // with a rounded edge that is pressed on, without friction or with it. Layers: the upper one softer
 // or stiffer. The rim of the hole is named or not.
@@ -294,8 +199,6 @@ std::string sucked(Draw& draw, bool plate, bool layered) {
              R, edge, H, friction, -depth, -depth, -pressure);
 }
 
-using Maker = std::function<std::string(Draw&)>;
-using Makers = std::vector<std::pair<std::string, Maker>>;
 const Makers& of_suction() {
   static const Makers all{{"ring",
                            [](Draw& draw) {
@@ -348,7 +251,7 @@ const Makers& of_sections() {
                            }}};
   return all;
 }
-const Makers& makers() {
+const Makers& usual_kinds() {
   static const Makers all{{"centred", centred},
                           {"beside", beside},
                           {"thin", thin},
@@ -370,15 +273,34 @@ const Makers& makers() {
   return all;
 }
 
+// all of them
+const Makers& makers() {
+  static const Makers all = [] {
+    Makers kinds = usual_kinds();
+    kinds.insert(kinds.end(), further_kinds().begin(), further_kinds().end());
+    return kinds;
+  }();
+  return all;
+}
+
 }  // namespace
+
+std::vector<std::string> names_of_kinds() {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : makers()) names.push_back(name);
+  return names;
+}
 
 DrawnScene drawn_scene(std::uint64_t seed, int number, const std::string& kind_of) {
   const Makers& all = kind_of == "suction"   ? of_suction()
                       : kind_of == "section" ? of_sections()
                                              : makers();
-  const auto& [kind, make] = all[static_cast<std::size_t>(number) % all.size()];
+  auto drawn = all.begin() + number % static_cast<std::ptrdiff_t>(all.size());
+  const auto named =
+      std::find_if(all.begin(), all.end(), [&](const auto& kind) { return kind.first == kind_of; });
+  if (named != all.end()) drawn = named;
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(number));
-  return {fmt::format("{:03}_{}", number, kind), make(draw)};
+  return {fmt::format("{:03}_{}", number, drawn->first), drawn->second(draw)};
 }
 
 }  // namespace langer::test

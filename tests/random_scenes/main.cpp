@@ -1,6 +1,6 @@
 // Whether an accuracy that is asked for is kept, on scenes drawn at random
 // (random_scenes/draw.hpp), and whether error bars hold.
-//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps] [default]
+//   langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction | <name of a kind>] [steps] [default]
 // Each scene is written to FOLDER/<name>.yaml, solved as langer-solve does with `accuracy`, and
 // again on shorter cells and half the increments, whose limit is the truth and whose own error bar
 // is what remains unknown of it; scenes that this would take longer than `seconds` of CPU have no
@@ -18,6 +18,7 @@
 #include "accuracy/refinement/accuracy.hpp"
 #include "core/base/stopwatch.hpp"
 #include "random_scenes/draw.hpp"
+#include "random_scenes/tools.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/dry_run.hpp"
@@ -35,6 +36,20 @@ struct Options {
   bool steps = false;  // bars along the path are judged, too
   bool by_default = false;
 };
+
+bool is_kind(const std::string& name) {
+  const std::vector<std::string> single = test::names_of_kinds();
+  return name == "any" || name == "section" || name == "suction" ||
+         std::find(single.begin(), single.end(), name) != single.end();
+}
+
+// Files of a config are relative to it.
+std::string with_folder(std::string yaml, const std::string& folder) {
+  const std::string key = "file: ";
+  if (const auto at = yaml.find(key); at != std::string::npos)
+    yaml.insert(at + key.size(), std::filesystem::absolute(folder).string() + "/");
+  return yaml;
+}
 
 Options options_of(int argc, char** argv) {
   Options o;
@@ -59,7 +74,7 @@ Options options_of(int argc, char** argv) {
       o.asked = std::stod(value);
     else if (key == "seconds")
       o.seconds = std::stod(value);
-    else if (key == "kind" && (value == "any" || value == "section" || value == "suction"))
+    else if (key == "kind" && is_kind(value))
       o.kind = value;
     else
       throw std::invalid_argument(text);
@@ -270,17 +285,18 @@ void say_forecasts(Counts& counts) {
 int main(int argc, char** argv) try {
   const Options o = options_of(argc, argv);
   std::filesystem::create_directories(o.folder);
+  test::write_tools(o.folder);
   Counts counts;
   fmt::print(
       "| scene | quantity | found | off by % | unknown +- % | bar +- % | limit: off by % | | CPU s |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (int i = o.from; i < o.from + o.scenes; ++i) {
     const test::DrawnScene scene = test::drawn_scene(o.seed, i, o.kind);
-    std::ofstream(o.folder + "/" + scene.name + ".yaml")
-        << scene.yaml << "accuracy: " << o.asked << "%\n";
+    const std::string file = o.folder + "/" + scene.name + ".yaml";
+    std::ofstream(file) << scene.yaml << "accuracy: " << o.asked << "%\n";
     try {
       SolveConfig config =
-          read_config<SolveConfig>(parse_yaml(scene.yaml, scene.name + ".yaml")).config;
+          read_config<SolveConfig>(parse_yaml(with_folder(scene.yaml, o.folder), file)).config;
       config.accuracy = fmt::format("{:g}%", o.asked);
       const Answer answer = asked_for(config, o.seconds);
       ++counts.ended;
@@ -328,7 +344,7 @@ int main(int argc, char** argv) try {
 } catch (const std::logic_error& wrong) {
   fmt::print(
       stderr,
-      "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction] [steps] [default]; found {}\n",
+      "langer-random-scenes FOLDER [seed=1] [scenes=24] [from=0] [asked=1] [seconds=120] [kind=any | section | suction | <name of a kind>] [steps] [default]; found {}\n",
       wrong.what());
   return 2;
 }
