@@ -147,6 +147,37 @@ TEST_CASE("judged quantities: the greatest pull counts what lies between the ste
   CHECK(pull_between_steps(path) == near(0.05 * 0.05, 1e-6));
 }
 
+namespace {
+
+// A sphere that is pressed on a disc and drawn off; its bonds are soft enough for these cells.
+std::string pulled_off(double edge) {
+  return fmt::format(
+      "mesh:\n"
+      "  geometry: {{indented_disc: {{size: [9, 6], radius: 5, depth: 0.06, edge: {}}}}}\n"
+      "  sets: {{contact: {{of: top, within: {{cylinder: {{axis: y, radius: 0.9}}}}}}}}\n"
+      "material: {{matrix: {{neo_hooke: {{a1: 0.05}}}}, volume: {{quadratic: {{d: 1.0e-3}}}}}}\n"
+      "supports: [{{on: bottom, hold: [x, y, z]}}]\n"
+      "contacts:\n"
+      "  sphere:\n"
+      "    on: contact\n"
+      "    rigid: {{sphere: {{radius: 5, centre: [0, 11, 0]}}}}\n"
+      "    adhesion: {{work: 5.0e-4, stiffness: 0.75}}\n"
+      "    motion: [{{t: 0.3, to: [0, -0.06, 0]}}, {{t: 1, to: [0, 0.05, 0]}}]\n"
+      "path: {{first: 0.05, largest: 0.05}}\nsolver: {{newton: {{iterations: 12}}}}\n"
+      "stability: off\n",
+      edge);
+}
+
+}  // namespace
+
+TEST_CASE("judged quantities: the bar of the greatest pull holds and tells something") {
+  const ErrorEstimate e = judged(pulled_off(0.1), "{of: pull_off, within: 1%}").of("pull_off");
+  const std::vector<StepForces> fine = path_of(pulled_off(0.05), "{of: pull_off, within: 1%}");
+  CHECK(e.of.value > 0);
+  CHECK(std::abs(e.of.value - fine.back().of.at("pull_off")) <= e.total());
+  CHECK(e.total() < 0.2 * e.of.value);
+}
+
 TEST_CASE("judged quantities: what a scene does not have is refused by name") {
   const auto said = [](const std::string& accuracy) {
     try {

@@ -234,8 +234,9 @@ std::string tilted_ellipsoid(Draw& draw) {
   const Pressed p = pressed(draw, 1, 3);
   const int tilts[]{10, 25, 40};
   const std::string law = material(draw, 1, 1);
-  return scanned(p, law, fmt::format("ellipsoid_{}.stl", tilts[draw.below(3)]), p.R,
-                 rounded(0.05 * p.R));
+  // rounder than its cells are long: else nodes slip over the edges of the file one by one
+  return scanned(p, law, fmt::format("ellipsoid_{}.stl", tilts[draw.below(3)]), rounded(0.6 * p.R),
+                 rounded(0.4 * p.R));
 }
 
 std::string stl_punch(Draw& draw) {

@@ -187,11 +187,7 @@ Answer by_default(SolveConfig config) {
 Solved truth_of(SolveConfig config, double seconds) {
   scale_cells(config.mesh->geometry, is_section(config.mesh->geometry) ? 0.5 : 0.8);
   config.path.use_increment(0.5 * config.path.largest_increment());
-  try {
-    return solved_once(config, seconds);
-  } catch (const TooLong&) {
-    return {};
-  }
+  return solved_once(config, seconds);
 }
 
 struct Counts {
@@ -234,6 +230,7 @@ void judge(const Options& o, const std::string& name, const Answer& answer,
     if (o.kind == "suction" && e.of.name == "von_mises_max")
       continue;                     // it has no limit at a rim where stresses are singular
     if (e.of.value == 0) continue;  // a rim that is held
+    if (e.grows) continue;          // it has no bar, and says so
     const bool asked = std::any_of(judged.begin(), judged.end(),
                                    [&](const ErrorEstimate& j) { return j.of.name == e.of.name; });
     const auto t = std::find_if(truths.begin(), truths.end(), [&](const ErrorEstimate& other) {
@@ -313,6 +310,9 @@ int main(int argc, char** argv) try {
       Solved truth;
       try {
         truth = truth_of(answer.config, o.seconds);
+      } catch (const TooLong& too_long) {
+        fmt::print("| {} | truth: {:.0f} s for one solve | | | | | | | |\n", scene.name,
+                   too_long.seconds);
       } catch (const Failure& failure) {
         fmt::print("| {} | truth | {} | | | | | | |\n", scene.name, failure.what());
       }

@@ -9,6 +9,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
 #include "core/hdf5/seal.hpp"
+#include "mechanics/contact/surface_check.hpp"
 #include "results/store/vtu.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
@@ -30,8 +31,32 @@ void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const st
   write_vtu(name + "_mode.vtu", mesh, point.t, {field}, {});
 }
 
+// Where the edges of an indenter from a file are rounder than the nodes are apart, a node that is
+// pushed over an edge slips down the other side at once, however short the increment is. Empty
+// where no indenter is of that kind.
+std::string nodes_slip_over_edges(const Run& run, const StepRecord& last) {
+  if (last.u.empty()) return "";
+  const SurfaceCheck check(run.mesh);
+  for (const RigidContact& contact : run.scene.contacts) {
+    const auto* indenter = std::get_if<Facets>(&contact.shape);
+    if (!indenter) continue;
+    const double apart =
+        2 *
+        check.look(contact, last.u, indenter_at(contact, last), last.contacts.at(contact.name).r)
+            .spacing;
+    if (!std::isfinite(apart) || indenter->rounding >= apart) continue;
+    return fmt::format(
+        "contacts.{}.rigid.facets.rounding is {:.3g} mm, and nodes that touch are {:.2g} mm apart: "
+        "they slip over the edges of the file one by one; a rounding of at least {:.2g} mm helps "
+        "(smaller `scale` and another `move` keep the size), or shorter cells",
+        contact.name, indenter->rounding, apart, apart);
+  }
+  return "";
+}
+
 // What helps where no equilibrium is found; continues "kept: 3 steps in x.part (".
-std::string cure_of_failure(const Run& run, const PathReport& path, const std::string& loose) {
+std::string cure_of_failure(const Run& run, const RunEnd& end, const std::string& loose) {
+  const PathReport& path = end.path;
   if (!loose.empty())
     return "a run of this config continues from there); hold also a node on the indenter's axis "
            "and, against turning, one next to it, where contact does not: that begins anew";
@@ -49,6 +74,8 @@ std::string cure_of_failure(const Run& run, const PathReport& path, const std::s
     return "the next run continues from there); the tangent of a pressure whose rim is free is not "
            "symmetric, and Newton's method has the symmetric part of it: solver: {kinsol: "
            "{strategy: picard}} goes further, and begins anew";
+  if (const std::string why = nodes_slip_over_edges(run, end.last); !why.empty())
+    return "the next run continues from there); " + why;
   return "the next run continues from there); try path.smallest or solver.newton.iterations";
 }
 
@@ -174,7 +201,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   found += "; smallest increment reached";
   fail(Exit::not_converged, found, "",
        fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
-                   cure_of_failure(run_, end.path, loose)));
+                   cure_of_failure(run_, end, loose)));
 }
 
 void Recording::stopped_in_estimate() const {

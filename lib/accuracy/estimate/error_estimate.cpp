@@ -423,6 +423,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config);
   const double beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
+  const double beside_end = beside_ends_of_supports(config);
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     double order = 1;
@@ -456,6 +457,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
                                           std::abs(q.value));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
+    if (q.unit != unit::MPa) e.scatter = std::max(e.scatter, 0.5 * beside_end * std::abs(q.value));
     if (q.of_contact()) {
       e.scatter = std::max({e.scatter, 0.5 * one_by_one(touching, section) * std::abs(q.value),
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
@@ -470,7 +472,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const std::vector<SolvedPath>& meshes = all.any().of;
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
-  for (const Valued& q : on_path(itself.found, itself.path)) {
+  for (const Valued& q : itself.found) {
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));
       continue;
@@ -521,7 +523,7 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config,
 PathErrors estimated(const SolveConfig& config, const std::optional<Material>& material,
                      const Find& where, Run& run, const StepRecord& last,
                      const std::vector<StepForces>& path, const EstimateListener& listener) {
-  const std::vector<Valued> found = valued(config, run.scene, run.mesh, last);
+  const std::vector<Valued> found = on_path(valued(config, run.scene, run.mesh, last), path);
   if (config.estimate == EstimateBy::dual) return dual_errors(config, run, last, found);
   return estimate_along(config, material, where, {found, path, 0}, relative_residual(last),
                         listener);

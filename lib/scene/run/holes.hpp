@@ -1,5 +1,5 @@
-// What the hole that a body is sucked into leaves open of an error bar, where three meshes do not
-// tell it.          docs/loads.md
+// What the hole that a body is sucked into, and the end of what is held, leave open of an error
+// bar, where three meshes do not tell it.          docs/loads.md, docs/study_estimates.md
 #pragma once
 
 #include <string>
@@ -14,6 +14,9 @@ namespace langer {
 double beside_holes(const SolveConfig& config);
 double under_holes(const SolveConfig& config);
 double beside_rims(const SolveConfig& config, bool clamped);
+// Least share of a bar where a part of a face is held or moved, and the rest of it not, as behind
+// the tip of a crack.
+double beside_ends_of_supports(const SolveConfig& config);
 
 // Why no bar is told of displacement_<point>, where it may slip over the rounded edge of a plate;
 // empty otherwise.
