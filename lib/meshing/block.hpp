@@ -118,6 +118,9 @@ struct IndentedBlock {
   std::optional<std::array<double, 2>> under, even;
   std::vector<double> borders;       // y of the faces between layers; not for files
   std::optional<MeshFamily> family;  // its cells follow from edge; not for files
+  // Longest cells towards the sides where edge is 0.5, in proportion to its root [mm]; none: they
+  // grow as an indentation needs them, which is too long for a sheet that bends. Not for files.
+  std::optional<double> longest;
   static void fields(auto& v) {
     v(&IndentedBlock::origin, "origin", unit::mm, "corner with the least coordinates");
     v(&IndentedBlock::size, "size", unit::mm, "lengths along x, y, z", required,

@@ -42,6 +42,21 @@ int least_cells(double rest, double cell) {
   return n;
 }
 
+// The smallest number of elements that cover the length `rest` next to an element of length `cell`,
+// if they grow by one factor and the last is at most `longest`.
+int cells_up_to(double longest, double rest, double cell) {
+  if (longest <= cell) return bounded(std::ceil(rest / cell - 1e-9));
+  int n = 0;
+  double covered_length = 0;
+  while (covered_length < rest * (1 - 1e-9)) {
+    ++n;
+    covered_length = 0;
+    for (int i = 1; i <= n; ++i)
+      covered_length += cell * std::pow(longest / cell, static_cast<double>(i) / n);
+  }
+  return n;
+}
+
 }  // namespace
 
 double IndentedBlock::contact_radius() const {
@@ -65,6 +80,9 @@ Block IndentedBlock::block() const {
     if (length > even_part)
       coarse = std::max(growing_cells(0.65, edge, length / even_part, 6.8),
                         least_cells(length - fine * cell, cell));
+    if (longest && length > even_part)
+      coarse = std::max(coarse,
+                        cells_up_to(*longest * std::sqrt(edge / 0.5), length - fine * cell, cell));
     return std::min(fine + coarse, bounded(std::ceil(length / cell - 1e-9)));
   };
   const bool off_centre = (under && !in_the_middle()) || even;

@@ -56,6 +56,13 @@ bool lies_on_its_bottom(const SolveConfig& config) {
   return held;
 }
 
+bool has_nothing_below(const SolveConfig& config) {
+  return std::ranges::none_of(config.supports, [](const SupportConfig& support) {
+    const bool below = support.on == "bottom" || support.on == "y_min";
+    return below && std::ranges::count(support.hold, Axis::y) > 0;
+  });
+}
+
 // Where a set ends, on the axes along which it is a part of the body. A box that holds less than
 // one cell along an axis selects a plane there.
 void add_ends(const MeshConfig& mesh, const SetConfig& set,
@@ -260,6 +267,9 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   }
   if (print) place_cells(std::get<IndentedBlock>(geometry), *print);
   const CellType first = first_cells(config, chosen.cut);
+  auto* const sheet = std::get_if<IndentedBlock>(&geometry);
+  if (sheet && first == CellType::hex27 && has_nothing_below(config))
+    sheet->longest = longest_of_sheet * sheet->size[1];
   if (wants_family(config) && !chosen.cut) put_in_family(geometry, breaks_of(config));
   chosen.written = geometry;
   chosen.finest = finest_edge(*config.mesh, first);

@@ -36,6 +36,10 @@ constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};  // locally re
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};    // sections
 constexpr double enough_for_coarsest = 2;  // requested error [%] from which `coarsest` suffices
 
+// A sheet with nothing below it bends as far as its rims: longest hex27 there, in its thickness
+// (`langer-random-scenes FOLDER kind=held_sheet`).
+constexpr double longest_of_sheet = 0.7;
+
 // Limits of experience.
 constexpr double finest_of_block = 0.04;  // mesh size [contact radii]
 constexpr double finest_of_disc = 0.01;
