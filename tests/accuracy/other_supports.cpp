@@ -115,7 +115,8 @@ TEST_CASE("other supports: a notch's first order shows in its levels, and its ba
       judge(ended, "reaction_top", limit, unknown, asked);
       met += ended.met;
       const ErrorEstimate& e = ended.of("reaction_top");
-      CHECK(e.order < 1.4);
+      CHECK(e.order < 2);  // what cells without a notch have
+      if (asked > 1) CHECK(e.order < 1.4);
       // the stress at the end of what is held has no limit
       CHECK(ended.of("von_mises_max").grows);
       CHECK(in_words(ended.of("von_mises_max")).find("grows without bound") != std::string::npos);
@@ -204,7 +205,8 @@ TEST_CASE("pressed and lifted: the largest force is judged, unless the config sa
 namespace {
 
 // a sheet that is held at its rims, nothing below it, and a sphere that presses it
-std::string trampoline(const std::string& cells, double edge, const std::string& more) {
+// edge: of the block, and keys that follow it
+std::string trampoline(const std::string& cells, const std::string& edge, const std::string& more) {
   return fmt::format(
       "mesh: {{geometry: {{indented_block: {{origin: [-8, 0, -8], size: [16, 2, 16], radius: 2.5, depth: 0.8, edge: {}}}}}, cells: {}}}\n"
       "supports: [{{on: x_min, hold: [x, y, z]}}, {{on: x_max, hold: [x, y, z]}}, {{on: z_min, hold: [x, y, z]}}, {{on: z_max, hold: [x, y, z]}}]\n"
@@ -218,14 +220,14 @@ std::string trampoline(const std::string& cells, double edge, const std::string&
 
 TEST_CASE("other supports: a sheet held at its rims is judged by cells that bend") {
   const std::string moved = "motion: [{t: 1, to: [0, -0.6, 0]}]";
-  const SolveConfig reference = test::config_of(trampoline("hex27", 0.25, moved));
+  const SolveConfig reference = test::config_of(trampoline("hex27", "0.35, even: [8, 8]", moved));
   const double limit = end_of_path(reference, reference.material, test::nowhere).front().value;
-  const Ended ended = asked_for(trampoline("hex8", 0.3, moved), "10%");
+  const Ended ended = asked_for(trampoline("hex8", "0.3", moved), "10%");
   judge(ended, "force", limit, 0.01, 10);
   CHECK(ended.met);
   CHECK(ended.config.mesh->cells == CellType::hex27);
   // what a study of bodies on their bottom promises is not said of a sheet
-  SolveConfig config = test::config_of(trampoline("hex8", 0.3, moved) + "accuracy: 5%\n");
+  SolveConfig config = test::config_of(trampoline("hex8", "0.3", moved) + "accuracy: 5%\n");
   const auto chosen = choose_accuracy(config, config.material);
   REQUIRE(chosen.has_value());
   CHECK(!chosen->shown);

@@ -54,6 +54,7 @@ constexpr double most_cells_more = 8;       // factor of the number of elements
 constexpr double most_increments_more = 3;  // factor of the number of increments
 constexpr double rough = 5;                 // an estimate above this [%] may be too large ...
 constexpr double too_large = 4;             // ... by this factor
+constexpr double doubtful = 2;              // and any other by this one
 constexpr double clearly_better = 0.9;  // a level whose error is below this share of the next one's
 constexpr double worth_a_forecast = 1e4;  // elements: smaller meshes take a few seconds
 

@@ -134,9 +134,13 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
   const double at_once = shortest_at_once(chosen);
   for (const ErrorEstimate& e : forces) {
     const bool is_rough = e.in_percent(e.total()) > rough;
-    double most = chosen.wanted;
-    if (is_rough) most *= too_large;
-    if (percent_with(e, least, step, e.order) > most) return std::nullopt;
+    double most = doubtful * chosen.wanted;
+    double hoped = e.order;
+    if (is_rough) {
+      most = too_large * chosen.wanted;
+      hoped = std::max(hoped, 1.0);  // what a few nodes in contact show is no order
+    }
+    if (percent_with(e, least, step, hoped) > most) return std::nullopt;
     const double order = value_or(seen, e.of.name, e.order);
     while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
