@@ -463,6 +463,8 @@ Decision Accuracy::decide(const std::vector<ErrorEstimate>& estimates) {
     if (finest.edge < 0.99 * chosen_->level.edge) {
       stop_reason_ = fmt::format("the finest level that was tried, {}, would have about {:.2g} %",
                                  in_words(finest), percent_at(*chosen_, estimates, finest));
+    } else {
+      stop_reason_ = fmt::format("no finer cells are tried than {}", in_words(chosen_->level));
     }
     return final_decision(estimates);
   }

@@ -545,7 +545,8 @@ BondRates Sensitivity::kept_bonds(std::size_t i) const {
   if (bonds.none()) return {};
   const std::vector<Vec3>& X = state.body.mesh().X;
   const std::vector<Vec3> c = state.indenters(last_.t, last_.travel);
-  bonds.begin(earlier_.bonds, (last_.t - earlier_.t) * state.options.seconds, X, earlier_.u);
+  bonds.begin(earlier_.bonds, (last_.t - earlier_.t) * state.options.seconds, X, earlier_.u,
+              state.indenters(earlier_.t, earlier_.travel));
   bonds.evaluate(X, last_.u, c);
   ParameterChange change;
   add_contact_change(i, change);

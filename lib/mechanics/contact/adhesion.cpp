@@ -1,7 +1,10 @@
 #include "mechanics/contact/adhesion.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <unsupported/Eigen/AutoDiff>
 
 namespace langer {
 
@@ -32,23 +35,75 @@ Opening opening_of(const Adhesion& law, const ShapePoint& shape, const Vec3& v, 
   return open;
 }
 
-// The intensity at the end of an increment.
+// What the intensity at the end of an increment depends on.
+enum On { start, opening_at_start, opening_at_end, work, viscosity, n_on };
+using Gradient = Eigen::Matrix<double, n_on, 1>;
+// a number with its derivatives by all of these
+using Number = Eigen::AutoDiffScalar<Gradient>;
+
 struct Intensity {
   double beta = 0;
-  bool follows = false;  // what opens the bond; else it stays, or is whole again
-  bool whole = false;
+  Gradient by = Gradient::Unit(start);
+  double error = 0;  // by the length of the increment
 };
+
+Number backward_euler(const Number& beta, const Number& s, const Number& w, const Number& B) {
+  return (B * beta + w) / (B + s);
+}
+
+// limited(x): x between the intensity at the beginning and where it comes to rest
+Number two_stages(const Number& beta, const Number& s_0, const Number& s_1, const Number& w,
+                  const Number& B, const std::function<Number(const Number&)>& limited) {
+  const double gamma = 1 - std::sqrt(0.5);
+  const Number K = 1 / B;
+  const Number s_g = (1 - gamma) * s_0 + gamma * s_1;
+  const Number beta_g = limited((beta + gamma * K * w) / (1 + gamma * K * s_g));
+  return (beta + (1 - gamma) * K * (w - beta_g * s_g) + gamma * K * w) / (1 + gamma * K * s_1);
+}
+
+// The difference from the exact solution for the mean of s. It shrinks with the third power of the
+// increment. Where the bond follows s at once it would tell of s alone, and is left out.
+double error_of(double beta, const Bond& bond, double s, double w, double B) {
+  const double mean = 0.5 * (bond.opening + s);
+  const double rest = w / mean;
+  const double exact = rest + (bond.beta - rest) * std::exp(-mean / B);
+  return std::abs(beta - exact) / (1 + mean / B);
+}
 
 Intensity intensity_of(const Adhesion& law, const Bond& bond, double s, double viscous) {
   const bool loosens = bond.beta * s > law.work;
   const bool heals = law.healing && bond.beta < 1 && bond.beta * s < law.work;
   if (!(loosens || heals) || !std::isfinite(viscous)) return {bond.beta};
-  const double towards = viscous * bond.beta + law.work;
-  if (!(towards < viscous + s)) return {1, false, true};
-  return {towards / (viscous + s), true};
+  const auto variable = [](double value, On on) {
+    return Number(value, Gradient::Unit(on));
+  };
+  const Number beta_0 = variable(bond.beta, start);
+  const Number s_1 = variable(s, opening_at_end);
+  const Number w = variable(law.work, work);
+  const Number B = variable(viscous, viscosity);
+  const bool second_order = bond.opening >= 0 && viscous > 0;
+  Number beta = backward_euler(beta_0, s_1, w, B);
+  if (second_order) {
+    const auto from_start = [&](const Number& x) {
+      const bool turned = loosens ? x.value() > bond.beta : x.value() < bond.beta;
+      return turned ? beta_0 : x;
+    };
+    beta = from_start(
+        two_stages(beta_0, variable(bond.opening, opening_at_start), s_1, w, B, from_start));
+    const bool beyond_rest = loosens ? beta.value() * s < law.work : beta.value() * s > law.work;
+    if (beyond_rest) beta = w / s_1;
+  }
+  if (!(beta.value() < 1)) return {1, Gradient::Zero()};
+  Intensity out{beta.value(), beta.derivatives()};
+  if (second_order) out.error = error_of(out.beta, bond, s, law.work, viscous);
+  return out;
 }
 
 }  // namespace
+
+double opening(const Adhesion& law, const ShapePoint& shape, const Vec3& v, const Bond& bond) {
+  return opening_of(law, shape, v, bond).s;
+}
 
 Adhesive adhesive(const Adhesion& law, const ShapePoint& shape, const Vec3& v, const Bond& bond,
                   double viscous) {
@@ -61,10 +116,10 @@ Adhesive adhesive(const Adhesion& law, const ShapePoint& shape, const Vec3& v, c
   if (open.gap > 0) dds += 2 * law.stiffness * (n * n.transpose() + open.gap * shape.curvature);
   const Intensity intensity = intensity_of(law, bond, open.s, viscous);
   out.beta = intensity.beta;
-  double softening = 0;  // -d beta/ds / beta
-  if (intensity.follows && out.beta < 1) softening = 1 / (viscous + open.s);
+  out.error = intensity.error;
   out.force = -0.5 * out.beta * out.beta * open.ds;
-  out.tangent = -out.beta * out.beta * (0.5 * dds - softening * open.ds * open.ds.transpose());
+  out.tangent = -out.beta * (0.5 * out.beta * dds +
+                             intensity.by[opening_at_end] * open.ds * open.ds.transpose());
   out.stored = 0.5 * out.beta * out.beta * open.s;
   const double loosened = bond.beta - out.beta;
   out.dissipated =
@@ -96,12 +151,10 @@ AdhesiveChange adhesive_change(const Adhesion& law, const ShapePoint& shape, con
       2 * law.tangential * (d_slip - d_slip_n * open.m - open.slip_n * d_m) +
       2 * (change.law.stiffness * open.gap * n + change.law.tangential * towards_slip);
   const Intensity now = intensity_of(law, bond, open.s, viscous);
-  if (now.follows) {
-    const double d_towards = change.viscous * bond.beta + viscous * change.beta + change.law.work;
-    out.beta = (d_towards - now.beta * (change.viscous + d_s)) / (viscous + open.s);
-  } else if (!now.whole) {
-    out.beta = change.beta;
-  }
+  out.opening = d_s;
+  out.beta = now.by[start] * change.beta + now.by[opening_at_start] * change.opening +
+             now.by[opening_at_end] * d_s + now.by[work] * change.law.work +
+             now.by[viscosity] * change.viscous;
   out.force = -now.beta * out.beta * open.ds - 0.5 * now.beta * now.beta * d_ds;
   return out;
 }

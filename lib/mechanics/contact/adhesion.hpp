@@ -7,9 +7,14 @@
 // With healing, beta also rises to min(1, w/s). Signorini's and Coulomb's laws hold for the rest of
 // the contact force. A bond pulled along the normal bears at most sqrt(w C_N), at the gap
 // sqrt(w/C_N), and dissipates w in all. A node bonds when it touches, without a force.
-// The law holds at the end of an increment (backward Euler): beta minimises
+// b = 0, and where a jump is damped: the law holds at the end of an increment, beta minimises
 //   1/2 beta^2 s - w beta + 1/2 B (beta - beta_0)^2,     B = b/dt
-// so that the force has a potential and its tangent is symmetric.
+// b > 0: of second order in dt, by two implicit stages with s on a straight line from s_0 to s_1
+// (SDIRK of Alexander, SIAM J. Numer. Anal. 14, 1977), gamma = 1 - 1/sqrt 2, K = dt/b:
+//   s_g = s_0 + gamma (s_1 - s_0),     beta_g = (beta_0 + gamma K w)/(1 + gamma K s_g)
+//   beta = (beta_0 + (1 - gamma) K (w - beta_g s_g) + gamma K w)/(1 + gamma K s_1)
+// between beta_0 and w/s_1, where coming loose ends. In both cases beta follows from s_1 alone, so
+// that the force has a potential and its tangent is symmetric.
 #pragma once
 
 #include <limits>
@@ -45,6 +50,8 @@ struct Bond {
   Vec3 at =
       Vec3::Zero();   // where it bonded: displacement of the node less that of the indenter [mm]
   bool made = false;  // has touched
+  // s at the beginning of the increment [N/mm]; below 0: not known, and backward Euler is taken
+  double opening = -1;
 };
 
 struct Adhesive {
@@ -53,7 +60,11 @@ struct Adhesive {
   Mat3 tangent = Mat3::Zero();  // d force/dx, symmetric [MPa/mm]
   double stored = 0;            // [N/mm]
   double dissipated = 0;        // since `bond`: w (beta_0 - beta), and what viscosity takes [N/mm]
+  double error = 0;  // of beta by the length of the increment, about; only of second order
 };
+
+// s of the law at a place: v as below [N/mm]
+double opening(const Adhesion& law, const ShapePoint& shape, const Vec3& v, const Bond& bond);
 
 // v: displacement of the node less that of the indenter; viscous: B [N/mm], infinite: the bond
 // stays as it is
@@ -69,11 +80,13 @@ struct BondChange {
   double viscous = 0;
   // of gap, normal and curvature at the place of the node, which moves by v
   ShapePoint shape = {0, Vec3::Zero(), Mat3::Zero()};
+  double opening = 0;  // at the beginning of the increment
 };
 
 // What follows from it, exactly.
 struct AdhesiveChange {
   double beta = 0;
+  double opening = 0;  // s at the end
   Vec3 force = Vec3::Zero();
 };
 AdhesiveChange adhesive_change(const Adhesion& law, const ShapePoint& shape, const Vec3& v,

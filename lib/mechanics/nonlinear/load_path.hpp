@@ -79,7 +79,7 @@ struct LoadPathOptions {
       "duration of the path; what viscous materials need", positive);
     v(&LoadPathOptions::time_error, "time_error", unit::none,
       "of viscous materials: error of the branch stresses that an increment may make, over the greatest stresses, both as means over "
-      "the body; not with steps",
+      "the body; of bonds with a viscosity: error of their intensity, as a mean over what has touched; not with steps",
       positive, between(0, 1));
     v(&LoadPathOptions::longest_attempt, "longest_attempt", unit::s,
       "wall time after which an attempt at an increment counts as failed and the increment is halved; none: no limit. With it "

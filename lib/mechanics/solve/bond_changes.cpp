@@ -46,6 +46,7 @@ AdhesiveChange BondChanges::at(std::size_t contact, std::size_t candidate, const
   if (!moves.start.empty()) {
     change.beta = moves.start[contact][candidate].beta;
     change.at = moves.start[contact][candidate].at;
+    change.opening = moves.start[contact][candidate].opening;
   }
   change.v = moved(contact, candidate, moves.change, du);
   if (!moves.change.adhesion.empty()) change.law = moves.change.adhesion[contact];
@@ -78,7 +79,9 @@ BondRates BondChanges::after(const BondMoves& moves, const VecX& du,
         continue;
       }
       if (!moves.start.empty()) rate = moves.start[k][i];
-      rate.beta = at(k, i, moves, du).beta;
+      const AdhesiveChange change = at(k, i, moves, du);
+      rate.beta = change.beta;
+      rate.opening = change.opening;
     }
   }
   return out;

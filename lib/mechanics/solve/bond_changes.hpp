@@ -20,6 +20,7 @@ namespace langer {
 struct BondRate {
   double beta = 0;
   Vec3 at = Vec3::Zero();
+  double opening = 0;
 };
 using BondRates = std::vector<std::vector<BondRate>>;  // as BondStates; empty: all 0
 

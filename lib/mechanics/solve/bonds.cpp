@@ -58,10 +58,15 @@ BondStates Bonds::at_rest(const std::vector<Vec3>& X) const {
 }
 
 void Bonds::begin(const BondStates& start, double seconds, const std::vector<Vec3>& X,
-                  const VecX& u) {
+                  const VecX& u, const std::vector<Vec3>& c) {
   start_ = start;
   seconds_ = seconds;
   damping_ = 0;
+  begin_surfaces(X, u);
+  find_openings(X, u, c);
+}
+
+void Bonds::begin_surfaces(const std::vector<Vec3>& X, const VecX& u) {
   if (!surfaces_) return;
   u_start_ = u;
   const VecX x = positions(X, u);
@@ -69,6 +74,27 @@ void Bonds::begin(const BondStates& start, double seconds, const std::vector<Vec
   for (const SurfaceContact& surface : surfaces_->surfaces()) {
     normals_.emplace_back();
     if (surface.adhesion) normals_.back() = mortar_normals(surface, x);
+  }
+}
+
+void Bonds::find_openings(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c) {
+  for (std::size_t k = 0; k < start_.size(); ++k) {
+    if (start_[k].empty()) continue;
+    const bool by_time = viscous(k) > 0;
+    for (std::size_t i = 0; i < start_[k].size(); ++i) {
+      Bond& bond = start_[k][i];
+      bond.opening = -1;
+      if (!by_time || !bond.made) continue;
+      if (k < contacts_.size()) {
+        const int node = contacts_[k].nodes[i];
+        const Vec3 v = u.segment<3>(3 * node) - c[k];
+        bond.opening = opening(law(k), shape_at(contacts_[k].shape, X[node] + v), v, bond);
+      } else {
+        const Vec3& normal = normals_[k - contacts_.size()][i];
+        bond.opening =
+            opening(law(k), {-normal.dot(bond.at), normal, Mat3::Zero()}, Vec3::Zero(), bond);
+      }
+    }
   }
 }
 
@@ -87,6 +113,7 @@ Adhesive Bonds::bond(std::size_t contact, std::size_t candidate, const ShapePoin
   now.tangent *= size;
   now.stored *= size;
   now.dissipated *= size;
+  now.error *= size;
   return now;
 }
 
@@ -136,7 +163,10 @@ void Bonds::evaluate_surfaces(const std::vector<Vec3>& X, const VecX& u) {
 void Bonds::go_on() {
   for (std::size_t k = 0; k < now_.size(); ++k)
     for (std::size_t i = 0; i < now_[k].size(); ++i)
-      if (start_[k][i].made) start_[k][i].beta = now_[k][i].beta;
+      if (Bond& bond = start_[k][i]; bond.made) {
+        bond.beta = now_[k][i].beta;
+        bond.opening = -1;
+      }
 }
 
 std::vector<Vec3> Bonds::forces(std::size_t contact) const {
@@ -194,6 +224,19 @@ double Bonds::loosened() const {
     for (std::size_t i = 0; i < now_[k].size(); ++i)
       if (start_[k][i].made) most = std::max(most, std::abs(start_[k][i].beta - now_[k][i].beta));
   return most;
+}
+
+double Bonds::time_error() const {
+  double sum = 0;
+  double touched = 0;
+  for (std::size_t k = 0; k < now_.size(); ++k)
+    for (std::size_t i = 0; i < now_[k].size(); ++i) {
+      if (!start_[k][i].made || law(k).viscosity == 0) continue;
+      sum += now_[k][i].error;
+      touched += area(k, i);
+    }
+  if (touched == 0) return 0;
+  return sum / touched;
 }
 
 bool Bonds::made_anew(std::size_t contact, std::size_t candidate,

@@ -39,9 +39,10 @@ class Bonds {
   bool none() const { return !any_; }
   BondStates at_rest(const std::vector<Vec3>& X) const;  // what touches there is bonded
 
-  // An increment from `start`, where displacements are u, takes `seconds`; b without them would be
-  // infinite stiffness.
-  void begin(const BondStates& start, double seconds, const std::vector<Vec3>& X, const VecX& u);
+  // An increment from `start`, where displacements are u and those of indenters c, takes `seconds`;
+  // b without them would be infinite stiffness.
+  void begin(const BondStates& start, double seconds, const std::vector<Vec3>& X, const VecX& u,
+             const std::vector<Vec3>& c);
   // What the bonds bear at u, c: by contact, the indenter's displacement.
   void evaluate(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c);
 
@@ -70,6 +71,9 @@ class Bonds {
   double dissipated_since(const BondStates& from) const;  // by loss of intensity, w A [N mm]
   double dissipated() const;  // since begin() or go_on(), viscous work included
   double loosened() const;    // largest change of an intensity since then
+  // What the length of the increment makes of the intensities of bonds with a viscosity, as a mean
+  // over the area that has touched; 0 where there are none.
+  double time_error() const;
 
   // The states with which the next increment begins: candidates that bear a reaction r have bonded;
   // with healing those that bore none before, r_0, do so anew, where they are.
@@ -92,7 +96,10 @@ class Bonds {
   // the law at a candidate, times its area
   Adhesive bond(std::size_t contact, std::size_t candidate, const ShapePoint& shape, const Vec3& v,
                 const Bond& from) const;
+  void begin_surfaces(const std::vector<Vec3>& X, const VecX& u);
   void evaluate_surfaces(const std::vector<Vec3>& X, const VecX& u);
+  // how far bonds with a viscosity are open where an increment begins
+  void find_openings(const std::vector<Vec3>& X, const VecX& u, const std::vector<Vec3>& c);
 
   const std::vector<RigidContact>& contacts_;
   TouchingBodies* surfaces_ = nullptr;

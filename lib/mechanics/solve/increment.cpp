@@ -333,7 +333,7 @@ void Increment::follow(const Arc& arc) {
 
 void Increment::begin_bonds() {
   state_.bonds.begin(now_.bonds, (trial_.t - now_.t) * state_.options.seconds, body_.mesh().X,
-                     now_.u);
+                     now_.u, state_.indenters(now_.t, now_.travel));
   state_.bonds.evaluate(body_.mesh().X, trial_.u, state_.indenters(trial_.t, trial_.travel));
   jump_ = {};
 }

@@ -223,6 +223,8 @@ RunEnd Run::follow(const RunListener& listener) {
       }
     }
     if (report.converged() && body.viscous()) report.time_error = increment.time_error();
+    if (report.converged())
+      report.time_error = std::max(report.time_error, increment.bonds().time_error());
     if (report.converged() && inertia && !scene.motion_step) {
       report.time_error = std::max(report.time_error,
                                    path.time_error / scene.motion_error * increment.motion_error());
