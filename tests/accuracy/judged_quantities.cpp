@@ -150,7 +150,8 @@ TEST_CASE("judged quantities: the greatest pull counts what lies between the ste
 namespace {
 
 // A sphere that is pressed on a disc and drawn off; its bonds are soft enough for these cells.
-std::string pulled_off(double edge) {
+std::string pulled_off(double edge, const std::string& more_of_bonds = "",
+                       const std::string& path = "first: 0.05, largest: 0.05") {
   return fmt::format(
       "mesh:\n"
       "  geometry: {{indented_disc: {{size: [9, 6], radius: 5, depth: 0.06, edge: {}}}}}\n"
@@ -161,11 +162,11 @@ std::string pulled_off(double edge) {
       "  sphere:\n"
       "    on: contact\n"
       "    rigid: {{sphere: {{radius: 5, centre: [0, 11, 0]}}}}\n"
-      "    adhesion: {{work: 5.0e-4, stiffness: 0.75}}\n"
+      "    adhesion: {{work: 5.0e-4, stiffness: 0.75{}}}\n"
       "    motion: [{{t: 0.3, to: [0, -0.06, 0]}}, {{t: 1, to: [0, 0.05, 0]}}]\n"
-      "path: {{first: 0.05, largest: 0.05}}\nsolver: {{newton: {{iterations: 12}}}}\n"
+      "path: {{{}}}\nsolver: {{newton: {{iterations: 12}}}}\n"
       "stability: off\n",
-      edge);
+      edge, more_of_bonds, path);
 }
 
 }  // namespace
@@ -176,6 +177,16 @@ TEST_CASE("judged quantities: the bar of the greatest pull holds and tells somet
   CHECK(e.of.value > 0);
   CHECK(std::abs(e.of.value - fine.back().of.at("pull_off")) <= e.total());
   CHECK(e.total() < 0.2 * e.of.value);
+}
+
+TEST_CASE("judged quantities: bonds with a viscosity find their increments") {
+  const auto greatest = [](const std::string& path) {
+    const std::string scene = pulled_off(0.1, ", viscosity: 5.0e-5", "seconds: 1" + path);
+    return path_of(scene, "{of: pull_off, within: 1%}").back().of.at("pull_off");
+  };
+  const double fine = greatest(", first: 0.005, largest: 0.005");
+  CHECK(greatest("") == near(fine, 0.02));
+  CHECK(greatest(", time_error: 1.0e-4") == near(fine, 0.005));
 }
 
 TEST_CASE("judged quantities: what a scene does not have is refused by name") {

@@ -153,12 +153,17 @@ TEST_CASE("a bond with a viscosity is of second order in the increments") {
       const double right = intensity_after(law, widest, 30000, true);
       CHECK(right > 0.2);
       CHECK(right < 0.95);
+      // worst of several numbers: where the bond begins to come loose lies between increments
       const auto off = [&](int n, bool second_order) {
-        return std::abs(intensity_after(law, widest, n, second_order) - right);
+        double worst = 0;
+        for (const int more : {0, 1, 2, 3, 4})
+          worst = std::max(worst,
+                           std::abs(intensity_after(law, widest, n + more, second_order) - right));
+        return worst;
       };
-      // where it begins to come loose lies between increments, so the order is not seen exactly
+      // 16 times shorter: 256 times more exact, if all were smooth
       CHECK(off(480, true) < off(30, true) / 100);
-      CHECK(off(30, true) < 0.2 * off(30, false));
+      CHECK(off(120, true) < 0.2 * off(120, false));
       CHECK(off(30, true) < 5e-3);
     }
   }

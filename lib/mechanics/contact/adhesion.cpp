@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <unsupported/Eigen/AutoDiff>
 
 namespace langer {
@@ -51,52 +50,69 @@ Number backward_euler(const Number& beta, const Number& s, const Number& w, cons
   return (B * beta + w) / (B + s);
 }
 
-// limited(x): x between the intensity at the beginning and where it comes to rest
+// K = dt/b; falls: the bond cannot come back.
 Number two_stages(const Number& beta, const Number& s_0, const Number& s_1, const Number& w,
-                  const Number& B, const std::function<Number(const Number&)>& limited) {
+                  const Number& K, bool falls) {
   const double gamma = 1 - std::sqrt(0.5);
-  const Number K = 1 / B;
   const Number s_g = (1 - gamma) * s_0 + gamma * s_1;
-  const Number beta_g = limited((beta + gamma * K * w) / (1 + gamma * K * s_g));
-  return (beta + (1 - gamma) * K * (w - beta_g * s_g) + gamma * K * w) / (1 + gamma * K * s_1);
+  Number beta_g = (beta + gamma * K * w) / (1 + gamma * K * s_g);
+  if (falls && beta_g.value() > beta.value()) beta_g = beta;
+  Number out =
+      (beta + (1 - gamma) * K * (w - beta_g * s_g) + gamma * K * w) / (1 + gamma * K * s_1);
+  if (!falls) return out;
+  // it comes to rest where beta s = w, at the largest s that it meets
+  if (out.value() > beta.value()) return beta;
+  const Number& largest = s_1.value() > s_0.value() ? s_1 : s_0;
+  if (out.value() * largest.value() < w.value()) return w / largest;
+  return out;
 }
 
 // The difference from the exact solution for the mean of s. It shrinks with the third power of the
 // increment. Where the bond follows s at once it would tell of s alone, and is left out.
-double error_of(double beta, const Bond& bond, double s, double w, double B) {
-  const double mean = 0.5 * (bond.opening + s);
+double error_of(double beta, double beta_0, double mean, double w, double K) {
   const double rest = w / mean;
-  const double exact = rest + (bond.beta - rest) * std::exp(-mean / B);
-  return std::abs(beta - exact) / (1 + mean / B);
+  const double exact = rest + (beta_0 - rest) * std::exp(-K * mean);
+  return std::abs(beta - exact) / (1 + K * mean);
+}
+
+// A bond begins to come loose, or comes to rest, within an increment where beta_0 s passes w: then
+// the part of the increment counts in which it comes loose.
+Intensity of_second_order(const Adhesion& law, const Bond& bond, double s, double viscous) {
+  const bool before = bond.beta * bond.opening > law.work;
+  const bool after = bond.beta * s > law.work;
+  const bool comes_back = law.healing && bond.beta < 1;
+  if (!before && !after && !comes_back) return {bond.beta};
+  const Number beta_0(bond.beta, Gradient::Unit(start));
+  const Number w(law.work, Gradient::Unit(work));
+  Number s_0(bond.opening, Gradient::Unit(opening_at_start));
+  Number s_1(s, Gradient::Unit(opening_at_end));
+  Number K = 1 / Number(viscous, Gradient::Unit(viscosity));
+  const Number rest = w / beta_0;
+  if (after && !before && !comes_back) {
+    K = K * (s_1 - rest) / (s_1 - s_0);
+    s_0 = rest;
+  } else if (before && !after && !law.healing) {
+    K = K * (s_0 - rest) / (s_0 - s_1);
+    s_1 = rest;
+  }
+  const Number beta = two_stages(beta_0, s_0, s_1, w, K, !law.healing);
+  if (!(beta.value() < 1)) return {1, Gradient::Zero()};
+  const double mean = 0.5 * (s_0.value() + s_1.value());
+  const double error = error_of(beta.value(), bond.beta, mean, law.work, K.value());
+  return {beta.value(), beta.derivatives(), error};
 }
 
 Intensity intensity_of(const Adhesion& law, const Bond& bond, double s, double viscous) {
+  if (!std::isfinite(viscous)) return {bond.beta};
+  if (bond.opening >= 0 && viscous > 0) return of_second_order(law, bond, s, viscous);
   const bool loosens = bond.beta * s > law.work;
   const bool heals = law.healing && bond.beta < 1 && bond.beta * s < law.work;
-  if (!(loosens || heals) || !std::isfinite(viscous)) return {bond.beta};
-  const auto variable = [](double value, On on) {
-    return Number(value, Gradient::Unit(on));
-  };
-  const Number beta_0 = variable(bond.beta, start);
-  const Number s_1 = variable(s, opening_at_end);
-  const Number w = variable(law.work, work);
-  const Number B = variable(viscous, viscosity);
-  const bool second_order = bond.opening >= 0 && viscous > 0;
-  Number beta = backward_euler(beta_0, s_1, w, B);
-  if (second_order) {
-    const auto from_start = [&](const Number& x) {
-      const bool turned = loosens ? x.value() > bond.beta : x.value() < bond.beta;
-      return turned ? beta_0 : x;
-    };
-    beta = from_start(
-        two_stages(beta_0, variable(bond.opening, opening_at_start), s_1, w, B, from_start));
-    const bool beyond_rest = loosens ? beta.value() * s < law.work : beta.value() * s > law.work;
-    if (beyond_rest) beta = w / s_1;
-  }
+  if (!(loosens || heals)) return {bond.beta};
+  const Number beta = backward_euler(
+      Number(bond.beta, Gradient::Unit(start)), Number(s, Gradient::Unit(opening_at_end)),
+      Number(law.work, Gradient::Unit(work)), Number(viscous, Gradient::Unit(viscosity)));
   if (!(beta.value() < 1)) return {1, Gradient::Zero()};
-  Intensity out{beta.value(), beta.derivatives()};
-  if (second_order) out.error = error_of(out.beta, bond, s, law.work, viscous);
-  return out;
+  return {beta.value(), beta.derivatives()};
 }
 
 }  // namespace

@@ -13,8 +13,9 @@
 // (SDIRK of Alexander, SIAM J. Numer. Anal. 14, 1977), gamma = 1 - 1/sqrt 2, K = dt/b:
 //   s_g = s_0 + gamma (s_1 - s_0),     beta_g = (beta_0 + gamma K w)/(1 + gamma K s_g)
 //   beta = (beta_0 + (1 - gamma) K (w - beta_g s_g) + gamma K w)/(1 + gamma K s_1)
-// between beta_0 and w/s_1, where coming loose ends. In both cases beta follows from s_1 alone, so
-// that the force has a potential and its tangent is symmetric.
+// for the part of the increment in which the bond comes loose, and at least w/s, where that ends.
+// In both cases beta follows from s_1 alone, so that the force has a potential and its tangent is
+// symmetric.
 #pragma once
 
 #include <limits>
