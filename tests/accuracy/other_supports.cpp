@@ -224,6 +224,8 @@ TEST_CASE("other supports: a sheet held at its rims is judged by cells that bend
   const double limit = end_of_path(reference, reference.material, test::nowhere).front().value;
   const Ended ended = asked_for(trampoline("hex8", "0.3", moved), "10%");
   judge(ended, "force", limit, 0.01, 10);
+  // cells that grow towards the rims leave 1.8 %, however short those under the sphere are
+  CHECK(std::abs(ended.of("force").of.value / limit - 1) < 0.01);
   CHECK(ended.met);
   CHECK(ended.config.mesh->cells == CellType::hex27);
   // what a study of bodies on their bottom promises is not said of a sheet
