@@ -34,16 +34,18 @@ void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const st
 // Where the edges of an indenter from a file are rounder than the nodes are apart, a node that is
 // pushed over an edge slips down the other side at once, however short the increment is. Empty
 // where no indenter is of that kind.
-std::string nodes_slip_over_edges(const Run& run, const StepRecord& last) {
-  if (last.u.empty()) return "";
-  const SurfaceCheck check(run.mesh);
-  for (const RigidContact& contact : run.scene.contacts) {
+std::string nodes_slip_over_edges(const Run& run) {
+  const IncrementState& state = run.increment.state();
+  const auto& last = run.increment.accepted();
+  const std::vector<Vec3> places = state.indenters(last.t, last.travel);
+  std::vector<Vec3> u;
+  for (Eigen::Index i = 0; i < last.u.size(); i += 3) u.push_back(last.u.segment<3>(i));
+  const SurfaceCheck check(state.body.mesh());
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const RigidContact& contact = state.contacts[k];
     const auto* indenter = std::get_if<Facets>(&contact.shape);
     if (!indenter) continue;
-    const double apart =
-        2 *
-        check.look(contact, last.u, indenter_at(contact, last), last.contacts.at(contact.name).r)
-            .spacing;
+    const double apart = 2 * check.look(contact, u, places[k], last.r[k]).spacing;
     if (!std::isfinite(apart) || indenter->rounding >= apart) continue;
     return fmt::format(
         "contacts.{}.rigid.facets.rounding is {:.3g} mm, and nodes that touch are {:.2g} mm apart: "
@@ -55,8 +57,7 @@ std::string nodes_slip_over_edges(const Run& run, const StepRecord& last) {
 }
 
 // What helps where no equilibrium is found; continues "kept: 3 steps in x.part (".
-std::string cure_of_failure(const Run& run, const RunEnd& end, const std::string& loose) {
-  const PathReport& path = end.path;
+std::string cure_of_failure(const Run& run, const PathReport& path, const std::string& loose) {
   if (!loose.empty())
     return "a run of this config continues from there); hold also a node on the indenter's axis "
            "and, against turning, one next to it, where contact does not: that begins anew";
@@ -74,7 +75,7 @@ std::string cure_of_failure(const Run& run, const RunEnd& end, const std::string
     return "the next run continues from there); the tangent of a pressure whose rim is free is not "
            "symmetric, and Newton's method has the symmetric part of it: solver: {kinsol: "
            "{strategy: picard}} goes further, and begins anew";
-  if (const std::string why = nodes_slip_over_edges(run, end.last); !why.empty())
+  if (const std::string why = nodes_slip_over_edges(run); !why.empty())
     return "the next run continues from there); " + why;
   return "the next run continues from there); try path.smallest or solver.newton.iterations";
 }
@@ -201,7 +202,7 @@ void Recording::need_the_end(const RunEnd& end, const std::string& loose) const 
   found += "; smallest increment reached";
   fail(Exit::not_converged, found, "",
        fmt::format("kept: {} steps in {}.part ({}", n_steps(), output_,
-                   cure_of_failure(run_, end, loose)));
+                   cure_of_failure(run_, end.path, loose)));
 }
 
 void Recording::stopped_in_estimate() const {
