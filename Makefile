@@ -246,7 +246,7 @@ help:
 	@echo "make estimates                estimated errors against true ones, in the scenes of make work-precision"
 	@echo "make accuracy                 whether accuracy: 1% holds on random scenes"
 	@echo "make accuracy-elsewhere       and on scenes unlike those of the refinement study"
-	@echo "make accuracy-random          and on scenes of twelve kinds drawn at random; SEED=12 SCENES=84 ASKED=3 (percent)"
+	@echo "make accuracy-random          and on scenes of 26 kinds drawn at random; SEED=83 SCENES=120 ASKED=3 (percent)"
 	@echo "make contact-discretisations  what error contact with friction has at nodes, in averages, at Gauss points"
 	@echo "make adaptive                 cells cut where the error comes from against even and graded ones: error over CPU seconds"
 	@echo "make install                  build for any machine of this kind and install; PREFIX=$(PREFIX) DESTDIR="
