@@ -31,9 +31,9 @@ void write_critical_point(const Mesh& mesh, const CriticalPoint& point, const st
   write_vtu(name + "_mode.vtu", mesh, point.t, {field}, {});
 }
 
-// Where the edges of an indenter from a file are rounder than the nodes are apart, a node that is
-// pushed over an edge slips down the other side at once, however short the increment is. Empty
-// where no indenter is of that kind.
+// What helps where edges of an indenter from a file have a radius below the distance of the nodes
+// that touch: a node that is pushed over such an edge slips down its other side at once, however
+// short the increment is. Empty where there is no such indenter.
 std::string nodes_slip_over_edges(const Run& run) {
   const IncrementState& state = run.increment.state();
   const auto& last = run.increment.accepted();

@@ -422,9 +422,10 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       config.touching, [](const auto& contact) { return contact.second.friction > 0; });
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double beside_hole = beside_holes(config);
-  const double beside_rim = std::max(beside_rims(config, is_clamped(config)), under_holes(config));
+  const bool clamped = is_clamped(config);
+  const double beside_rim = std::max(beside_rims(config, clamped), under_holes(config));
   const double beside_end = beside_ends_of_supports(config);
-  const bool at_held_edges = config.contacts.empty() && (is_clamped(config) || beside_end > 0);
+  const bool at_held_edges = config.contacts.empty() && (clamped || beside_end > 0);
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     double order = 1;

@@ -45,22 +45,21 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
   }
 }
 
+bool is_at_bottom(const SupportConfig& support) {
+  return support.on == "bottom" || support.on == "y_min";
+}
+
+// Whether no support holds the bottom along y.
+bool has_nothing_below(const SolveConfig& config) {
+  return std::ranges::none_of(config.supports, [](const SupportConfig& support) {
+    return is_at_bottom(support) && std::ranges::count(support.hold, Axis::y) > 0;
+  });
+}
+
 // Whether the body lies on its bottom, as the study's bodies do: each support holds all of the
 // bottom, and its bottom cannot move along y.
 bool lies_on_its_bottom(const SolveConfig& config) {
-  bool held = false;
-  for (const SupportConfig& support : config.supports) {
-    if (support.on != "bottom" && support.on != "y_min") return false;
-    held = held || std::ranges::count(support.hold, Axis::y) > 0;
-  }
-  return held;
-}
-
-bool has_nothing_below(const SolveConfig& config) {
-  return std::ranges::none_of(config.supports, [](const SupportConfig& support) {
-    const bool below = support.on == "bottom" || support.on == "y_min";
-    return below && std::ranges::count(support.hold, Axis::y) > 0;
-  });
+  return std::ranges::all_of(config.supports, is_at_bottom) && !has_nothing_below(config);
 }
 
 // Where a set ends, on the axes along which it is a part of the body. A box that holds less than

@@ -93,7 +93,7 @@ double narrowest(const InBox& held, const Box& body) {
 
 // Errors at the end of what is held are of first order, and those of the rest of the body of
 // second. Where their signs differ, three coarse meshes agree by chance: drawn notches of eight
-// hex27 missed up to 0.1 of the cells' length in widths of what is held.
+// hex27 missed up to 0.03 of the cells' length in widths of what is held.
 double beside_ends_of_supports(const SolveConfig& config) {
   if (!config.mesh || !config.contacts.empty()) return 0;
   std::vector<std::string> given;
