@@ -11,6 +11,7 @@
 #include "core/hdf5/seal.hpp"
 #include "mechanics/contact/surface_check.hpp"
 #include "results/store/vtu.hpp"
+#include "scene/run/by_node.hpp"
 #include "scene/run/continued.hpp"
 #include "scene/run/step_record.hpp"
 
@@ -38,8 +39,7 @@ std::string nodes_slip_over_edges(const Run& run) {
   const IncrementState& state = run.increment.state();
   const auto& last = run.increment.accepted();
   const std::vector<Vec3> places = state.indenters(last.t, last.travel);
-  std::vector<Vec3> u;
-  for (Eigen::Index i = 0; i < last.u.size(); i += 3) u.push_back(last.u.segment<3>(i));
+  const std::vector<Vec3> u = by_node(last.u);
   const SurfaceCheck check(state.body.mesh());
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const RigidContact& contact = state.contacts[k];

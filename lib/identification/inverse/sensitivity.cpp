@@ -11,19 +11,13 @@
 
 #include "scene/model/scene_motion.hpp"
 #include "scene/model/torque.hpp"
+#include "scene/run/by_node.hpp"
 #include "scene/run/step_forces.hpp"
 #include "scene/run/step_record.hpp"
 
 namespace langer {
 
 namespace {
-
-// A vector of three values per node as a list of vectors.
-std::vector<Vec3> by_node(const VecX& all) {
-  std::vector<Vec3> out;
-  for (Eigen::Index i = 0; i < all.size(); i += 3) out.push_back(all.segment<3>(i));
-  return out;
-}
 
 // What a motion carries on from one increment to the next.
 constexpr std::array motion_fields{velocity_field, acceleration_field, carried_field};

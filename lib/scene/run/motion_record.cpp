@@ -6,6 +6,7 @@
 
 #include "results/store/solution_layout.hpp"
 #include "scene/model/scene_motion.hpp"
+#include "scene/run/by_node.hpp"
 #include "scene/run/step_record.hpp"
 
 namespace langer {
@@ -54,8 +55,7 @@ LoadPathOptions motion_path(const Scene& scene, LoadPathOptions path) {
 void record_motion(const Increment& increment, const Assembler& body, StepRecord& record) {
   const MotionState& motion = increment.accepted().motion;
   const auto nodal = [&](const VecX& all) {
-    std::vector<Vec3> out;
-    for (int i = 0; i < body.mesh().n_nodes(); ++i) out.push_back(all.segment<3>(3 * i));
+    std::vector<Vec3> out = by_node(all);
     hang(body, all, out);
     return out;
   };

@@ -11,6 +11,7 @@
 #include "mechanics/vibration/harmonic.hpp"
 #include "mechanics/vibration/modes.hpp"
 #include "scene/model/scene_motion.hpp"
+#include "scene/run/by_node.hpp"
 
 namespace langer {
 
@@ -105,8 +106,7 @@ std::vector<int> nodes_of_part(const std::vector<int>& set, const Vec3& along, c
 std::vector<Vec3> whole_shape(const Run& run, const Mode& mode) {
   if (const ReducedScene* part = run.reduction.part())
     return part->whole_movement(run.mesh, mode.shape, mode.kind);
-  std::vector<Vec3> out;
-  for (int i = 0; i < run.mesh.n_nodes(); ++i) out.push_back(mode.shape.segment<3>(3 * i));
+  std::vector<Vec3> out = by_node(mode.shape);
   for (const HangingNode& h : run.mesh.hanging) {
     Vec3 mean = Vec3::Zero();
     for (int n : h.of) mean += 0.25 * out[static_cast<std::size_t>(n)];
