@@ -189,6 +189,17 @@ TEST_CASE("judged quantities: bonds with a viscosity find their increments") {
   CHECK(greatest(", time_error: 1.0e-4") == near(fine, 0.005));
 }
 
+TEST_CASE("judged quantities: increments meet the top of a pull without a delay of the bonds") {
+  const auto greatest = [](const std::string& path) {
+    return path_of(pulled_off(0.1, "", path), "{of: pull_off, within: 1%}")
+        .back()
+        .of.at("pull_off");
+  };
+  const double fine = greatest("first: 0.005, largest: 0.005");
+  CHECK(greatest("first: 0.125, largest: 0.125") == near(fine, 0.02));
+  CHECK(greatest("steps: 8") < 0.96 * fine);  // which are as they are asked for
+}
+
 TEST_CASE("judged quantities: what a scene does not have is refused by name") {
   const auto said = [](const std::string& accuracy) {
     try {

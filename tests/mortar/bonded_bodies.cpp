@@ -81,7 +81,7 @@ TEST_CASE("bonds of meshes that do not match transmit a uniform tension") {
 // The gap opens on both sides alike: half of it belongs to each, with bonds that are twice as stiff
 // and take half of the work.
 TEST_CASE("two equal bodies that adhere are one on a plane with half the work of adhesion") {
-  const std::string rest = "path: {first: 0.05, largest: 0.05}\n";
+  const std::string rest = "path: {steps: 20}\n";
   const auto skin = [](const std::string& divisions) {
     return "bodies:\n  skin: " + body("[0, 0, 0]", "[3, 1, 2]", divisions);
   };

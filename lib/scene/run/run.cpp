@@ -6,6 +6,7 @@
 
 #include "core/base/interrupt.hpp"
 #include "core/base/stopwatch.hpp"
+#include "mechanics/solve/pull_between.hpp"
 #include "mechanics/solve/release.hpp"
 #include "scene/model/torque.hpp"
 #include "scene/run/equilibrium_by.hpp"
@@ -15,6 +16,9 @@
 namespace langer {
 
 namespace {
+
+// What the greatest pull of an adhesive indenter may lack between two increments, over that pull.
+constexpr double most_pull_between = 0.01;
 
 IncrementOptions threads_of(const SolveConfig& config) {
   IncrementOptions options;
@@ -223,8 +227,16 @@ RunEnd Run::follow(const RunListener& listener) {
       }
     }
     if (report.converged() && body.viscous()) report.time_error = increment.time_error();
-    if (report.converged())
+    if (report.converged()) {
       report.time_error = std::max(report.time_error, increment.bonds().time_error());
+      // The top of a pull is to be met by the ends of increments. Where bonds jump, no length of
+      // them would do.
+      if (!increment.bonds().none() && length > path.shortest_with_a_jump()) {
+        const double parts = pull_between(increment) / most_pull_between;
+        // errors grow with the third power of an increment, and this one with the second
+        report.time_error = std::max(report.time_error, path.time_error * std::pow(parts, 1.5));
+      }
+    }
     if (report.converged() && inertia && !scene.motion_step) {
       report.time_error = std::max(report.time_error,
                                    path.time_error / scene.motion_error * increment.motion_error());

@@ -176,7 +176,18 @@ double pull_between_steps(const std::vector<StepForces>& path) {
   const double curvature = (right - left) / (path[top + 1].t - path[top - 1].t);
   if (!(curvature < 0)) return 0;
   const double slope = left + curvature * (here.t - path[top - 1].t);
-  return -0.25 * slope * slope / curvature;
+  const double parabola = -0.25 * slope * slope / curvature;
+  // Where bonds jump right after the greatest pull, the parabola says little: in front of a jump
+  // the pull goes on rising as before, at most.
+  const double on_as_before = left * (path[top + 1].t - here.t);
+  double before_the_top = 0;
+  if (top > 1) {
+    const StepForces& earlier = path[top - 2];
+    const StepForces& before = path[top - 1];
+    const double rise = (before.pull - earlier.pull) / (before.t - earlier.t);
+    before_the_top = rise * (here.t - before.t) - (here.pull - before.pull);
+  }
+  return std::min(parabola, std::max(on_as_before, before_the_top));
 }
 
 bool has_viscous_law(const Scene& scene) { return ViscousPoints::needed(scene.materials); }
