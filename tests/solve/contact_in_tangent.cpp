@@ -5,9 +5,13 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "scene/run/body_mesh.hpp"
 #include "support/indentation.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
+#include "support/solved_scene.hpp"
 
 using namespace langer;
 
@@ -101,4 +105,29 @@ TEST_CASE(
       REQUIRE(scene.run(test::neo_hooke(0.3, 1e-4)).path.complete);
       CHECK(in_tangent == (mu == 0 || layers == 2));
     }
+}
+
+// What a sphere presses hard is not stable without it: its tangent is not positive definite there,
+// on fine cells more so.
+TEST_CASE(
+    "contact in the tangent: a sphere with friction on a fine section needs no shorter steps") {
+  const auto pressed = [](double edge) {
+    const SolveConfig config = test::config_of(fmt::format(
+        "mesh: {{geometry: {{indented_disc: {{size: [16.9, 4], radius: 2.5, depth: 1, edge: {}}}}}}}\n"
+        "supports: [{{on: bottom, hold: [x, y]}}]\n"
+        "material: {{matrix: {{yeoh: {{a1: 0.269, a2: 0.376, a3: 0.415}}}}, volume: {{quadratic: {{d: 1.0e-6}}}}}}\n"
+        "contacts: {{ball: {{rigid: {{sphere: {{radius: 2.5, centre: [0, 6.5, 0]}}}}, friction: 0.34, motion: [{{t: 1, to: [0, -1, 0]}}]}}}}\n"
+        "stability: off\n",
+        edge));
+    Run run(body_mesh(config, "", test::nowhere), config, config.material, test::nowhere);
+    RunEnd end = run.follow();
+    CHECK(end.path.complete);
+    CHECK(end.path.steps == 10);
+    CHECK(end.path.cut_backs == 0);
+    return std::pair(end.last.force_ind.norm(), run.increment.contact_in_tangent());
+  };
+  const double coarse = pressed(0.04).first;
+  const auto [fine, sparse] = pressed(0.02);
+  CHECK(sparse);
+  CHECK(fine == near(coarse, 2e-3));
 }

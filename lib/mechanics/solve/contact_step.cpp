@@ -27,7 +27,7 @@ std::optional<VecX> ContactStep::correction() {
   std::optional<VecX> du;
   if (factors_.contact_in_tangent())
     du = solve_with_contact(rhs);
-  else if (!factors_.factorize())
+  else if (!factors_.factorize_or_stop())
     return std::nullopt;
   // Supporting springs change the tangent too much to reuse its factor. The displacement
   // formulation has no mixed equations in which an old tangent could stand for the new one.
@@ -218,7 +218,7 @@ std::optional<VecX> ContactStep::move_with_contact(const VecX& rhs) {
   while (change && change->level) {  // more candidates may close than the factor keeps apart
     factors_.take_level(*change->level);
     factors_.of_accepted = false;
-    if (again_ || !factors_.factorize()) return std::nullopt;
+    if (again_ || !factors_.factorize_or_stop()) return std::nullopt;
     factors_.serves = factors_.factor.kind() == TangentFactor::Kind::whole &&
                       body_.formulation() != Formulation::displacement;
     change = change_of_contact(rhs, half);

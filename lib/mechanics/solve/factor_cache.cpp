@@ -46,6 +46,8 @@ FactorCache::FactorCache(IncrementState& state, const Border& border)
 void FactorCache::begin_increment() {
   K_is_current = false;
   serves = std::exchange(of_accepted, false);
+  where_unstable(WhereUnstable::springs);
+  stopped_ = false;
   factor.begin_increment();
   bodies_condensed_ = false;
   if (bodies_) bodies_->begin_increment();
@@ -67,6 +69,37 @@ bool FactorCache::factorize() {
   factored_at = state_.trial.u;
   of_accepted = false;
   return factor.factorize(state_.body);
+}
+
+bool FactorCache::may_go_into_tangent() const {
+  return !contact_in_tangent() && state_.options.contact_by == ContactBy::by_cost &&
+         state_.surfaces.empty() && !state_.contacts.empty() && !factor.held_by_contact() &&
+         ContactInTangent::serves(state_.contacts);
+}
+
+void FactorCache::where_unstable(WhereUnstable what) {
+  using enum WhereUnstable;
+  if ((where_unstable_ == contact_in_tangent) != (what == contact_in_tangent)) {
+    if (!waiting_) {
+      const Stopwatch watch(state_.cost.analysis);
+      waiting_ = std::make_unique<TangentFactor>(state_.body, state_.contacts,
+                                                 state_.options.threads, ContactBy::tangent);
+    }
+    waiting_->begin_increment();
+    waiting_->go_on_counting(factor.counts());
+    std::swap(factor, *waiting_);
+    serves = of_accepted = false;
+  }
+  where_unstable_ = what;
+}
+
+bool FactorCache::factorize_or_stop() {
+  if (where_unstable_ != WhereUnstable::stop) return factorize();
+  const Stopwatch watch(state_.cost.factor);
+  factored_at = state_.trial.u;
+  of_accepted = false;
+  stopped_ = !factor.factorize_whole(state_.body);
+  return !stopped_;
 }
 
 TangentFactor& FactorCache::condensed_factor() {

@@ -23,6 +23,14 @@ class FactorCache {
   void take_level(int level);
   void update_tangent();  // assembles K at the trial, if it is of another state
   bool factorize();       // K of the trial; false where it is singular
+  // What to do where K is not positive definite without contact, as in what an indenter presses
+  // hard. Springs make condensed contact ill-conditioned; contact in the tangent holds the body.
+  // Each increment begins with springs, so that an interrupted path goes on with the same digits.
+  enum class WhereUnstable { springs, stop, contact_in_tangent };
+  bool may_go_into_tangent() const;
+  void where_unstable(WhereUnstable what);
+  bool stopped() const { return stopped_; }  // K was not positive definite
+  bool factorize_or_stop();                  // K of the trial; false where it is not usable
   // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it
   // is singular. The next increment begins with it where it is positive definite and contact is
   // condensed.
@@ -58,6 +66,9 @@ class FactorCache {
   std::unique_ptr<TangentFactor> second_factor_;
   std::unique_ptr<BodiesInTangent> bodies_;
   bool bodies_condensed_ = false;
+  WhereUnstable where_unstable_ = WhereUnstable::springs;
+  bool stopped_ = false;
+  std::unique_ptr<TangentFactor> waiting_;  // of contact in the tangent, or condensed, in its place
 };
 
 }  // namespace langer

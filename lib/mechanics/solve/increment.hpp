@@ -41,6 +41,11 @@ class Increment {
             const IncrementOptions& options, std::vector<SurfaceContact> surfaces = {});
 
   void begin(double t);  // starts an increment to t: predicts its trial state
+  // In an increment that has begun: what to do where the body is not stable without its contacts.
+  using WhereUnstable = FactorCache::WhereUnstable;
+  bool may_go_into_tangent() const { return !border_.active() && factors_.may_go_into_tangent(); }
+  void where_unstable(WhereUnstable what) { factors_.where_unstable(what); }
+  bool stopped_unstable() const { return factors_.stopped(); }
   // Starts an increment of which t, the factor of all loads in proportion to it, is an unknown: the
   // root mean square of the nodes' movement is `length` [mm] instead. The movement of each indenter
   // is added to it. towards: (3 n) where it goes from here; none: on as before.

@@ -191,6 +191,15 @@ bool TangentFactor::factorize(const Assembler& body) {
   return linear_->factorize_indefinite(body.K());
 }
 
+bool TangentFactor::factorize_whole(const Assembler& body) {
+  ++counts_.factorizations;
+  kind_ = Kind::whole;
+  if (linear_->factorize(body.K())) return true;
+  ++counts_.indefinite;
+  kind_ = Kind::none;
+  return false;
+}
+
 bool TangentFactor::factorize_supported(const Assembler& body) {
   kind_ = Kind::supported;
   const Pattern& pattern = body.pattern();

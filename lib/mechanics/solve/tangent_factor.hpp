@@ -58,6 +58,8 @@ class TangentFactor {
   void begin_increment();
   // The body's K; false where it is singular.
   bool factorize(const Assembler& body);
+  // K as it is, without springs; false where it is not positive definite.
+  bool factorize_whole(const Assembler& body);
   // What contact makes of the tangent, where it stands in it: by Cholesky, or by UMFPACK.
   bool factorize_with_contact(const std::vector<double>& values);
   // The body's K where reactions of contacts are fixed: K as it is, by UMFPACK where it is not
@@ -96,6 +98,7 @@ class TangentFactor {
     int unstable = 0;    // among them those that were not with contact
   };
   const Counts& counts() const { return counts_; }
+  void go_on_counting(const Counts& from) { counts_ = from; }
   void uncount(const Counts& before) {
     counts_.indefinite = before.indefinite;
     counts_.unstable = before.unstable;

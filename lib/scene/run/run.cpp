@@ -107,9 +107,25 @@ void Run::begin(double t) {
   }
 }
 
-SolveReport Run::solve_at(double t) {
+// Where a body is not stable without its contacts, the increment is begun again with contact in the
+// tangent, and once more as it was, with springs, if that finds no equilibrium. An increment that
+// has begun is not gone on with: what springs moved is far from the path.
+SolveReport Run::solved_from_begin(double t, const std::function<SolveReport()>& solve) {
   begin(t);
-  return equilibrium_by(solver, increment);
+  if (!increment.may_go_into_tangent()) return solve();
+  increment.where_unstable(Increment::WhereUnstable::stop);
+  SolveReport report = solve();
+  if (!increment.stopped_unstable()) return report;
+  begin(t);
+  increment.where_unstable(Increment::WhereUnstable::contact_in_tangent);
+  report = solve();
+  if (report.converged() || report.outcome == Outcome::stopped) return report;
+  begin(t);
+  return solve();
+}
+
+SolveReport Run::solve_at(double t) {
+  return solved_from_begin(t, [&] { return equilibrium_by(solver, increment); });
 }
 
 void Run::put_at(double t, const BodyState& state, const BodyState& before) {
@@ -189,7 +205,6 @@ RunEnd Run::follow(const RunListener& listener) {
       return signal != 0;
     };
     if (stopped()) return SolveReport{.outcome = Outcome::stopped, .why = "stopped by a signal"};
-    begin(t);
     const double began = wall_seconds();
     bool too_slow = false;
     const auto stopped_or_slow = [&] {
@@ -209,8 +224,9 @@ RunEnd Run::follow(const RunListener& listener) {
     };
     SolveReport report;
     if (increment.bonds().none()) {
-      report = solve();
+      report = solved_from_begin(t, solve);
     } else {
+      begin(t);
       report = adhesive_equilibrium(increment, t, path.shortest_with_a_jump(), solve, jumping);
     }
     if (!report.converged() && too_slow && signal == 0) {

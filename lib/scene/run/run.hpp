@@ -73,6 +73,7 @@ class Run {
   SolveReport solve_at(double t);
   // Puts it at a state that was found before, and the one before that.
   void put_at(double t, const BodyState& state, const BodyState& before);
+  double share_of_cells() const { return 1.0 * body.mesh().n_cells() / mesh.n_cells(); }  // solved
   double t() const { return t_; }                      // of the accepted state, on the path
   BodyState state_from(const StepRecord& step) const;  // of the model that is solved
 
@@ -91,6 +92,7 @@ class Run {
 
  private:
   void begin(double t);
+  SolveReport solved_from_begin(double t, const std::function<SolveReport()>& solve);
   void begin_branch(double t);
   double t_ = 0;
   std::optional<Switch> switch_;
