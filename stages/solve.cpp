@@ -211,6 +211,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
   const PathErrors errors =
       report_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
                     observers.recovered, watch.contact_warnings().empty());
+  model.solves_part(run.share_of_cells());
   const Decision decision = model.decide(errors, run.mesh);
   if (decision.action == Decision::Action::refine) {
     if (interrupted()) recording.stopped_in_estimate();

@@ -4,6 +4,7 @@
 #include "scene/run/footprint.hpp"
 #include "support/laws.hpp"
 #include "support/near.hpp"
+#include "support/solved_scene.hpp"
 
 #include <doctest/doctest.h>
 
@@ -112,6 +113,26 @@ TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the 
   CHECK(!bad.met);
   CHECK(bad.percent == near(9.5));
   CHECK(bad.words.find("9.5 %") != std::string::npos);
+}
+
+TEST_CASE("what symmetry leaves out does not count as cells of a finer level") {
+  const SolveConfig config = test::config_of(
+      "mesh: {geometry: {block: {size: [10, 10, 10], divisions: [40, 40, 40]}}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}]\n"
+      "loads: [{on: top, displacement: {x: 0, y: 1, z: 0}}]\n"
+      "material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-3}}}\n"
+      "formulation: mean_dilatation\n"
+      "accuracy: 1%\n");
+  ErrorEstimate reaction;
+  reaction.of = {"reaction_top", "N", 10};
+  reaction.cells = 0.15;
+  const auto action = [&](double share) {
+    Accuracy accuracy({"solve", true}, config, config.material, test::nowhere, false);
+    accuracy.solves_part(share);
+    return accuracy.decide({reaction}).action;
+  };
+  CHECK(action(1) == Decision::Action::stop);
+  CHECK(action(0.125) == Decision::Action::refine);
 }
 
 TEST_CASE(

@@ -93,6 +93,7 @@ struct Solved {
   std::vector<ErrorEstimate> errors;
   std::vector<StepForces> path;
   std::map<std::string, std::vector<double>> along;  // bars at each step
+  double share = 1;                                  // of the cells that was solved
 };
 struct Answer {
   SolveConfig config;  // that it was solved with
@@ -117,6 +118,7 @@ Solved solved_once(const SolveConfig& config, double seconds) {
   Run run(body_mesh(config, "", nowhere), config, config.material, nowhere);
   Solved out;
   out.forecast = need_time(config, run, seconds);
+  out.share = run.share_of_cells();
   const double begun = cpu_seconds();
   const RunEnd end = run.follow(collecting({}, config, run, out.path));
   out.took = cpu_seconds() - begun;
@@ -144,6 +146,7 @@ Answer asked_for(const SolveConfig& config, double seconds) {
       answer.solved = solved_once(answer.config, seconds);
       if (answer.solved.took >= shortest)
         answer.forecasts.push_back(answer.solved.took / answer.solved.forecast);
+      accuracy.solves_part(answer.solved.share);
       again = accuracy.decide(answer.solved.errors).action == Decision::Action::refine;
     } catch (const Failure& failure) {
       again = accuracy.retry_after(failure);

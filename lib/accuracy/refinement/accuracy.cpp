@@ -177,14 +177,18 @@ AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chose
   return level;
 }
 
+// of the geometry along which there is more than one cell; at least one
+std::ptrdiff_t axes_with_cells(const Geometry& geometry) {
+  const auto axes = std::ranges::count_if(numbers_of_cells(geometry), [](int n) { return n > 1; });
+  return std::max<std::ptrdiff_t>(axes, 1);
+}
+
 double finest_edge(const MeshConfig& mesh, CellType first) {
   if (std::holds_alternative<IndentedBlock>(mesh.geometry)) return finest_of_block;
   if (std::holds_alternative<IndentedDisc>(mesh.geometry)) return finest_of_disc;
   const double cells = (reference(first).second_order() ? 8 : 1) * n_cells(mesh.geometry);
-  const std::vector<int> along = numbers_of_cells(mesh.geometry);
-  const auto axes = std::ranges::count_if(along, [](int n) { return n > 1; });
-  return std::min(1.0, std::pow(cells / most_hex8,
-                                1.0 / static_cast<double>(std::max<std::ptrdiff_t>(axes, 1))));
+  const auto axes = static_cast<double>(axes_with_cells(mesh.geometry));
+  return std::min(1.0, std::pow(cells / most_hex8, 1 / axes));
 }
 
 // Keeps the mesh size and increments of the config if they are finer than the level's, and returns
@@ -438,6 +442,16 @@ void Accuracy::take(const AccuracyLevel& level) {
   chosen_->level = level;
   chosen_->level.error = 0;
   chosen_->met = chosen_->shown = false;  // no study stands for it
+}
+
+void Accuracy::solves_part(double share) {
+  if (!chosen_ || chosen_->level.in_contact_radii || share == share_) return;
+  std::ptrdiff_t axes = 3;
+  if (config_.mesh && has_numbers_of_cells(config_.mesh->geometry))
+    axes = axes_with_cells(config_.mesh->geometry);
+  const double longer = std::pow(share / share_, 1.0 / static_cast<double>(axes));
+  chosen_->finest = std::min(1.0, chosen_->finest * longer);
+  share_ = share;
 }
 
 // The last decision on a level: accept it if it meets the request, stop otherwise.

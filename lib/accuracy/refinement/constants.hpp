@@ -43,8 +43,8 @@ constexpr double longest_of_sheet = 0.7;
 // Limits of experience.
 constexpr double finest_of_block = 0.04;  // mesh size [contact radii]
 constexpr double finest_of_disc = 0.01;
-constexpr double most_hex8 = 6e4;       // elements, if their size is no share of a contact radius
-constexpr int most_cut = 150'000;       // elements of a locally refined mesh
+constexpr double most_hex8 = 6e4;  // elements solved, if their size is no share of a contact radius
+constexpr int most_cut = 150'000;  // elements of a locally refined mesh
 constexpr double shortest_step = 0.01;  // increment, as a share of the path
 
 // From one level to the next. `make accuracy` and `make accuracy-random` check the result. The

@@ -23,6 +23,8 @@ class ModelChoice {
   const SolveConfig& config() const { return accuracy_.config(); }  // to be solved
   Mesh mesh();  // on it; says where its cells are cut before the first solution
   bool at_a_point() const { return at_a_point_; }
+  // Symmetry leaves this share of the cells to be solved.
+  void solves_part(double share) { accuracy_.solves_part(share); }
   // What follows from the errors of a solution on this mesh. After `refine`, config() and mesh()
   // are those of the next level: a finer one if the errors are too large, or the level before if a
   // finer one had larger errors. That level is then the last. Prints what it does.
