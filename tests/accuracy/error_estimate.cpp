@@ -139,7 +139,8 @@ TEST_CASE("on a disc, too, what few nodes in contact get wrong is known") {
     const double error = force.of.value - 10.763;  // docs/sections.md, within 0.03 %
     CHECK(std::abs(error) > 0.004 * 10.763);
     CHECK(std::abs(force.limit() - 10.763) < 0.001 * 10.763);
-    CHECK(force.total() == near(std::abs(error), 0.2));
+    CHECK(force.total() > std::abs(error));
+    CHECK(force.total() < 2 * std::abs(error));
   }
 }
 

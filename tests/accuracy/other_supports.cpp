@@ -190,6 +190,23 @@ std::string pressed_and_lifted(double back) {
 
 }  // namespace
 
+TEST_CASE("other supports: meshes of a sheared block that agree by chance have a longer bar") {
+  const auto sheared = [](const std::string& divisions) {
+    return "mesh: {geometry: {block: {size: [2.25, 0.85, 1.16], divisions: " + divisions +
+           "}}}\n"
+           "supports: [{on: x_min, hold: [x, y, z]}]\n"
+           "loads: [{on: x_max, displacement: {x: 0, y: 0, z: 0.1195}}]\n"
+           "material: {matrix: {yeoh: {a1: 0.103, a2: 0.0515, a3: 0.0206}}, volume: {quadratic: {d: 4.75e-05}}, fibres: [{hgo: {c1: 0.0509, c2: 1.31}, alpha: -36.4, kappa: 0}]}\n"
+           "stability: off\n";
+  };
+  const ErrorEstimate few = asked_for(sheared("[10, 4, 5]"), "2%").of("reaction_x_max");
+  const ErrorEstimate many = asked_for(sheared("[48, 16, 16]"), "2%").of("reaction_x_max");
+  CHECK(few.scatter > 0);
+  CHECK(std::abs(few.of.value - many.limit()) > 2e-3 * few.of.value);
+  CHECK(few.total() > std::abs(few.of.value - many.limit()));
+  CHECK(few.total() < 1e-2 * few.of.value);
+}
+
 TEST_CASE("pressed and lifted: the largest force is judged, unless the config says where") {
   const Ended lifted = asked_for(pressed_and_lifted(0.1), "5%");
   const ErrorEstimate& force = lifted.of("force");
