@@ -136,8 +136,8 @@ double share_that_sticks(const SolveConfig& config) {
 // The shear at the edge of a contact with friction, on a section: three meshes of few cells may
 // agree by chance. Drawn spheres with 14 nodes in contact missed 0.5 % (langer-random-scenes FOLDER
 // kind=section).
-double shear_on_section(const SolveConfig& config, double touching) {
-  if (touching < 1) return 0;
+double shear_on_section(const SolveConfig& config, double touching, bool section) {
+  if (!section || touching < 1) return 0;
   return std::min(0.5, share_that_sticks(config) / (touching * touching));
 }
 
@@ -507,10 +507,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       if (q.name == "pull_off") single = bond_by_bond(touching, section);
       e.scatter = std::max({e.scatter, 0.5 * single * std::abs(q.value),
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
+                            0.5 * shear_on_section(config, touching, section) * std::abs(q.value),
                             0.5 * beside_hole * std::abs(q.value)});
-      if (section)
-        e.scatter =
-            std::max(e.scatter, 0.5 * shear_on_section(config, touching) * std::abs(q.value));
       if (refined.edge_unresolved)  // without a sign: three such meshes tell none of it
         e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) -
                                              std::abs(e.cells));
