@@ -135,6 +135,21 @@ bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
 bool needs_shapes(const QuantityLine& line) { return line.needs.shapes; }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
 
+// Where an accuracy was met by the limit of the meshes, that is what a column shows, and what was
+// computed on the mesh itself stands in a column <name>_of_mesh. The latter was read from the
+// history with the limit, whose values have no sign.
+void put_limits_first(const std::vector<Measure>& measures, Columns& columns) {
+  for (std::size_t c = 0; c < measures.size(); ++c) {
+    if (!measures[c].history.ends_with("_limit")) continue;
+    const auto shown = std::ranges::find_if(
+        columns, [&](const Column& column) { return of_mesh(column.name) == columns[c].name; });
+    if (shown == columns.end()) continue;
+    for (std::size_t row = 0; row < shown->values.size(); ++row)
+      columns[c].values[row] = std::copysign(columns[c].values[row], shown->values[row]);
+    std::swap(shown->values, columns[c].values);
+  }
+}
+
 // Evaluates all measures in all states. Sums along the path (energies) are computed first; contact
 // areas, contact values and slip only if a measure needs them.
 Table table_of(const Job<PostConfig>& job, const Solution& solution,
@@ -174,6 +189,7 @@ Table table_of(const Job<PostConfig>& job, const Solution& solution,
     else if (row == 0)
       table.seconds.push_back(0);
   }
+  put_limits_first(measures, table.columns);
   for (std::size_t c = 0; c < measures.size(); ++c) {
     if (!measures[c].zero_at) continue;
     std::vector<double>& values = table.columns[c].values;

@@ -208,7 +208,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
   // All steps are in the file now: a signal ends the program during the estimate at once.
   std::optional<EndsSoon> during_estimate(std::in_place);
   Recording& recording = *observers.recording;
-  const PathErrors errors =
+  PathErrors errors =
       report_errors(job.voice(), config, input.material, job.where, run, end.last, recording,
                     observers.recovered, watch.contact_warnings().empty());
   model.solves_part(run.share_of_cells());
@@ -217,6 +217,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
     if (interrupted()) recording.stopped_in_estimate();
     return std::nullopt;
   }
+  model.name_answers(errors.at_end);
   const Summaries of_vibration = add_vibration(job, config, run, observers);
   during_estimate.reset();
 
@@ -233,8 +234,8 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
   const Summaries of_fibres{{"fibre_jump", fibre_jump, "deg"}};
-  const StageResults all(joined({summary_of(run, end, recording.n_steps()), results, of_fibres,
-                                 watch.stability_summary()}),
+  const Summaries of_run = with_answers(summary_of(run, end, recording.n_steps()), errors.at_end);
+  const StageResults all(joined({of_run, results, of_fibres, watch.stability_summary()}),
                          watch.texts());
   try {
     if (decision.action == Decision::Action::stop)

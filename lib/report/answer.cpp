@@ -114,6 +114,12 @@ std::string with_error(double value, const std::string& unit, const KnownError& 
   return fmt::format("{} ± {:.2g}\u00a0%", text, error.percent);
 }
 
+// A number of the last step, or the limit of the meshes where that is the answer.
+double best_known(double shown, const KnownError& error) {
+  if (!std::isfinite(error.percent)) return shown;
+  return std::copysign(error.value, shown);
+}
+
 // The verb of an indentation: a force-controlled indenter, one that is pushed back by the body, or
 // one that adheres or is withdrawn (the force then acts along the travel).
 std::string motion_words(const Tree* contact, double force) {
@@ -224,7 +230,7 @@ void describe_twist(Answer& answer, const SolutionReader& solution, const Tree& 
   const KnownError error = known_error(solution.summary(), "torque_" + name, torque);
   answer.sentence = fmt::format("A body of {}, turned by {:.4g}° at {}: torque {}",
                                 size_of(solution.header().mesh), last.scalars.at("angle_" + name),
-                                name, with_error(torque, "N\u00a0mm", error));
+                                name, with_error(best_known(torque, error), "N\u00a0mm", error));
   add_contact_facts(answer, config.find("contacts"));
 }
 
@@ -309,10 +315,10 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   indenter[0] = 'A';
   std::string moment = ", at its greatest travel";
   if (last) moment = "";
-  answer.sentence =
-      fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
-                  motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
-                  size_of(solution.header().mesh), moment, with_error(force, "N", error));
+  answer.sentence = fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
+                                motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
+                                size_of(solution.header().mesh), moment,
+                                with_error(best_known(force, error), "N", error));
   if (!alone) answer.sentence += ", the sum over all indenters";
   add_contact_facts(answer, contacts);
 }
@@ -434,6 +440,8 @@ KnownError known_error(const std::vector<Summary>& summary, const std::string& n
   // The computed number is the extrapolated limit plus the errors of the mesh and the increments.
   double number =
       value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
+  const bool limit_answers = !std::isnan(value(name + "_of_mesh"));
+  if (limit_answers) number = value(name + "_limit");
   if (std::isnan(number)) number = fallback;
   return {number, 100 * value(name + "_error") / std::abs(number)};
 }

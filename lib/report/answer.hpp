@@ -25,8 +25,9 @@ struct Answer {
 };
 
 // A number of the summary with its estimated discretisation error in percent; NaN without an
-// estimate. The number is the sum of its limit and its errors in the summary; if they are missing,
-// it is `fallback`.
+// estimate. The number is the limit of the meshes where the solver gave that as its answer.
+// Otherwise it is the sum of its limit and its errors in the summary; if they are missing,
+// `fallback`.
 struct KnownError {
   double value = 0, percent = 0;
 };

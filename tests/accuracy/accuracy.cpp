@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -57,6 +58,7 @@ TEST_CASE(
     SolveConfig config = indentation();
     config.contacts["ball"].friction = mu;
     config.accuracy = std::to_string(wanted) + "%";
+    config.accuracy->answer = AccuracyOf::mesh;
     const auto chosen = choose_accuracy(config, std::nullopt);
     REQUIRE(chosen.has_value());
     CHECK(chosen->met);
@@ -87,6 +89,86 @@ TEST_CASE(
   plain.symmetry = SymmetryChoice::half_turn;
   CHECK(choose_accuracy(plain, std::nullopt)->wanted == 5);
   CHECK(plain.symmetry == SymmetryChoice::half_turn);  // what is asked for by name stays
+}
+
+TEST_CASE("where the limit may answer, a coarser level is taken, with friction up to 0.14 radii") {
+  const auto edge = [](double mu, const char* wanted, auto change) {
+    SolveConfig config = indentation();
+    config.contacts["ball"].friction = mu;
+    config.accuracy = wanted;
+    change(config);
+    return choose_accuracy(config, std::nullopt)->level.edge;
+  };
+  const auto as_it_is = [](SolveConfig&) {
+  };
+  const auto of_mesh = [](SolveConfig& config) {
+    config.accuracy->answer = AccuracyOf::mesh;
+  };
+  const auto unjudged = [](SolveConfig& config) {
+    config.estimate = EstimateBy::none;
+  };
+  CHECK(edge(0.34, "1%", as_it_is) == 0.14);
+  CHECK(edge(0.34, "1%", of_mesh) == 0.11);
+  CHECK(edge(0.34, "1%", unjudged) == 0.11);
+  CHECK(edge(0.34, "2%", as_it_is) == edge(0.34, "2%", of_mesh));
+  CHECK(edge(0, "1.5%", as_it_is) == 0.175);
+  CHECK(edge(0, "1.5%", of_mesh) == 0.15);
+}
+
+TEST_CASE(
+    "the limit answers where it alone is accurate enough, and only for what has been measured") {
+  ErrorEstimate e;
+  e.of = {"force", "N", 10};
+  e.cells = 0.12;
+  e.increments = -0.01;
+  e.scatter = 0.01;
+  CHECK(e.total() == near(0.15));
+  CHECK(e.limit_bar() == near(0.09));
+  CHECK(e.limit_percent() == near(100 * 0.09 / 9.89));
+  CHECK(e.percent() == near(1.5));  // without a bar of its limit
+  const auto answers = [](ErrorEstimate estimate, const char* wanted) {
+    SolveConfig config = indentation();
+    config.accuracy = wanted;
+    const Accuracy accuracy({"solve", true}, config, std::nullopt, test::nowhere, false);
+    std::vector<ErrorEstimate> all{std::move(estimate)};
+    accuracy.name_answers(all);
+    return all[0].limit_answers;
+  };
+  CHECK(!answers(e, "1%"));
+  e.limit_has_bar = true;
+  CHECK(e.percent() == e.limit_percent());
+  CHECK(answers(e, "1%"));
+  CHECK(!answers(e, "1.6%"));  // the value itself is accurate enough
+  CHECK(!answers(e, "0.8%"));  // neither is
+  // of several indenters also their sum
+  ErrorEstimate left = e;
+  left.of.name = "force_left";
+  ErrorEstimate sum = e;
+  sum.of.value = 20;
+  const auto several = [&](const char* wanted) {
+    SolveConfig config = indentation();
+    config.accuracy = wanted;
+    std::vector<ErrorEstimate> all{sum, left};
+    Accuracy({"solve", true}, config, std::nullopt, test::nowhere, false).name_answers(all);
+    return std::pair{all[0].limit_answers, all[1].limit_answers};
+  };
+  CHECK(several("1%") == std::pair{true, true});
+  CHECK(several("1.6%") == std::pair{false, false});
+  e.limit_answers = true;
+  CHECK(in_words(e) ==
+        "force 9.89 N +- 0.91 %, the limit of the meshes; on this one 10 N +- 1.5 % (cells +1.2, "
+        "increments -0.1, scatter 0.1, solver 0 %)");
+  const std::vector<Summary> summary = summary_of({e});
+  const auto number = [&](const char* name) {
+    return std::ranges::find(summary, name, &Summary::name)->value;
+  };
+  CHECK(number("force_error") == near(0.09));
+  CHECK(number("force_of_mesh") == 10);
+  CHECK(number("force_limit") == near(9.89));
+  const std::vector<Summary> answers_in = with_answers({{"t", 1, "-"}, {"force", -10, "N"}}, {e});
+  CHECK(answers_in[1].value == near(-9.89));
+  e.limit_answers = false;
+  CHECK(with_answers({{"force", -10, "N"}}, {e})[0].value == -10);
 }
 
 TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the study promised") {

@@ -133,7 +133,10 @@ TEST_CASE("a force has the column of its error beside it where the solver estima
               "reaction_x_x_max_error|reaction_x_max_error", "reaction_x_bottom|"});
   CHECK(named("{quantity: force}, {history: force_error}", {"force_error"}) ==
         Names{"force|", "force_error|force_error"});
-  for (const char* name : {"force_error", "force_left_error", "reaction_top_error"})
+  CHECK(named("{quantity: force}", {"force_error", "force_limit"}) ==
+        Names{"force|", "force_error|force_error", "force_of_mesh|force_limit"});
+  for (const char* name :
+       {"force_error", "force_left_error", "reaction_top_error", "force_limit", "force_left_limit"})
     CHECK(solution::unit_of(name) == std::string("N"));
 }
 

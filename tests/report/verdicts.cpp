@@ -65,4 +65,9 @@ TEST_CASE(
   CHECK(says(verdicts(2, with_error(0.02), "0.5%"), Level::warning,
              "force 2.00 N ± 1 % by mesh and increments: more than the 0.5 % wanted"));
   CHECK(says(verdicts(2, {}, "3%"), Level::note, "is not known"));
+  // the limit of the meshes as the answer, with its own bar
+  std::vector<Summary> by_limit = with_error(0.0193);
+  by_limit.push_back({"force_of_mesh", 2, "N"});
+  CHECK(says(verdicts(2, by_limit, "1%"), Level::good,
+             "force 1.950 N ± 0.99 % by mesh and increments: within the 1 % wanted"));
 }

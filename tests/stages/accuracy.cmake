@@ -125,6 +125,44 @@ run(5 ${BIN}/langer-solve quadratic.yaml -o quadratic.h5 --set accuracy=0.01%)
 expect_said("asked for 0.01 %")
 expect_said("its cells are not cut: hex8 alone are")
 
+# where the limit of the meshes is accurate enough before the value on the mesh is, it is the answer everywhere
+file(WRITE ${folder}/limit.yaml "include: configs/solve/refinement_isotropic.yaml
+mesh:
+  geometry: {indented_block: {origin: [-10, 0, -10], size: [20, 2.1, 20], radius: 3.85, depth: 0.31}}
+  sets: {contact: {of: top, within: {cylinder: {axis: y, radius: 2.119}}}}
+contacts:
+  sphere:
+    on: contact
+    rigid: {sphere: {radius: 3.85, centre: [0, 5.95, 0]}}
+    friction: 0.59
+    motion: [{t: 1, to: [0, -0.31, 0]}]
+accuracy: 1%
+")
+run(0 ${BIN}/langer-solve limit.yaml -o limit.h5)
+expect_said("the limit of the meshes; on this one 2.49")
+run(0 ${BIN}/langer-solve limit.yaml -o limit.h5 --json --quiet)
+number(force_N limit)
+number(force_error_N bar)
+number(force_of_mesh_N of_mesh)
+# 2.462 N: the limit of hex8 of 0.0884 contact radii in ten increments
+expect_within(0.8 "${limit}" "2.462")
+run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution limit.h5 -o limit_curves.h5 --quiet)
+file(STRINGS ${folder}/limit_curves.csv rows)
+list(GET rows 0 names)
+expect_equal("${names}" "u_ind_mm,force_N,force_error_N,force_of_mesh_N" "columns of an answer by the limit")
+list(GET rows -1 last)
+expect_equal("${last}" "0.31,${limit},${bar},${of_mesh}" "the last row")
+file(WRITE ${folder}/limit_report.yaml "title: By the limit\naccuracy: 1%\n")
+run(0 ${BIN}/langer-report limit_report.yaml --solution limit.h5 --curves limit_curves.h5 -o limit.html)
+file(READ ${folder}/limit.html page)
+if(NOT page MATCHES "20 mm: 2[.]48" OR NOT page MATCHES "force 2[.]48 N ± 0[.]82")
+  message(FATAL_ERROR "the report does not begin with the limit")
+endif()
+run(0 ${BIN}/langer-solve limit.yaml -o of_mesh.h5 --json --quiet --set "accuracy={within: 1%, answer: mesh}")
+if(said MATCHES "force_of_mesh")
+  message(FATAL_ERROR "answer: mesh is answered by a limit:\n${said}")
+endif()
+
 # an estimate that takes its turn by itself does not where it takes longer than a third of the solve
 run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 -v --set estimate=auto)
 expect_said("errors are estimated by recovery: other meshes would take more than a third of the solve")

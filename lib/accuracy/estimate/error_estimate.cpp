@@ -407,6 +407,13 @@ ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps) {
 
 namespace {
 
+// Whether the value on the mesh itself has to be accurate, and not its limit alone.
+bool needs_the_mesh(const SolveConfig& config) {
+  if (!config.accuracy) return false;
+  return config.accuracy->answer == AccuracyOf::mesh ||
+         config.accuracy->at == AccuracyAt::every_step;
+}
+
 bool is_asked(const SolveConfig& config, const std::string& name) {
   if (!config.accuracy) return false;
   const std::optional<std::string> asked = config.accuracy->quantity();
@@ -479,6 +486,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     ErrorEstimate e{
         q, q.value - limit->value, increments, limit->scatter, residual * std::abs(q.value), order};
     e.t = t;
+    e.limit_has_bar =
+        !observes && !section && q.of_contact() && q.name != "pull_off" && !needs_the_mesh(config);
     if (law) {
       e.cells = q.value - law->limit;
       e.scatter = law->scatter;
@@ -549,6 +558,14 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
         estimate = worst_of(steps);
       for (const ErrorEstimate& e : steps) out.along[q.name].push_back(e.total());
       out.along[q.name] = no_shorter_than_beside(out.along[q.name], itself.path, q.name);
+      if (estimate->limit_has_bar) {
+        PathErrors::Limits& limits = out.limits[q.name];
+        for (const ErrorEstimate& e : steps) {
+          limits.values.push_back(e.limit());
+          limits.bars.push_back(e.limit_bar());
+        }
+        limits.bars = no_shorter_than_beside(limits.bars, itself.path, q.name);
+      }
     }
     if (q.name == "pull_off") estimate->increments -= pull_between_steps(itself.path);
     if (q.of_force()) estimate->left_out = all.left_out(q);
@@ -613,8 +630,14 @@ std::string in_words(const ErrorEstimate& e) {
   std::string parts =
       fmt::format("cells {:+.2g}, increments {:+.2g}", cells, e.in_percent(e.increments));
   if (e.cells_with_increments) parts = fmt::format("cells and increments {:+.2g}", cells);
-  return fmt::format("{} ({}, scatter {:.2g}, solver {:.1g} %{}); limit {:.4g}", begins, parts,
-                     e.in_percent(e.scatter), solver, left_out, e.limit());
+  parts +=
+      fmt::format(", scatter {:.2g}, solver {:.1g} %{}", e.in_percent(e.scatter), solver, left_out);
+  if (e.limit_answers)
+    return fmt::format(
+        "{}{} {:.4g}{} +- {:.2g} %, the limit of the meshes; on this one {:.4g}{} +- {:.2g} % ({})",
+        e.of.name, at, e.limit(), in_unit, e.limit_percent(), e.of.value, in_unit,
+        e.in_percent(e.total()), parts);
+  return fmt::format("{} ({}); limit {:.4g}", begins, parts, e.limit());
 }
 
 std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
@@ -624,9 +647,10 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
     const auto add = [&](const char* what, double value) {
       summary.push_back({e.of.name + what, value, e.of.unit});
     };
-    add("_error", e.total());
+    add("_error", e.limit_answers ? e.limit_bar() : e.total());
     add("_error_cells", e.cells);
     if (e.has_limit) add("_limit", e.limit());
+    if (e.limit_answers) add("_of_mesh", e.of.value);
     if (e.t < 1) {
       add("_judged", e.of.value);
       summary.push_back({e.of.name + "_judged_at", e.t, "-"});
@@ -638,6 +662,16 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
       add(("_error_" + part.name).c_str(), part.value);
   }
   return summary;
+}
+
+std::vector<Summary> with_answers(std::vector<Summary> numbers,
+                                  const std::vector<ErrorEstimate>& estimates) {
+  for (const ErrorEstimate& e : estimates) {
+    if (!e.limit_answers || e.t < 1) continue;
+    const auto found = std::ranges::find(numbers, e.of.name, &Summary::name);
+    if (found != numbers.end()) found->value = std::copysign(e.limit(), found->value);
+  }
+  return numbers;
 }
 
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,

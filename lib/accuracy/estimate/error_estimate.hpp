@@ -18,6 +18,8 @@
 //   total       F |cells| + |increments| + 2 scatter + solver. F = 1; where p = 1 Roache's factor
 //               of safety for three meshes, 1.25; 2 where the order is only observed
 //   limit       q - cells - increments
+//   limit_bar   F |cells| / 2 + |increments| + 2 scatter + solver, for forces of indenters on blocks
+//               (docs/study_estimates.md, "The limit as the answer")
 //   left out    effect of what a body leaves out that stands for a larger one, if the config asks
 //               for it (accuracy/estimate/truncation.hpp); not in total
 // Meshes without a study (MeshFamily, no indenter, several bodies) have the smaller one of p and of
@@ -97,6 +99,8 @@ struct ErrorEstimate {
   // order is known less well than one that both agree on: Roache's factor is 1.25 for these.
   bool order_observed = false;
   bool cells_with_increments = false;  // `cells` is the error of both, found together
+  bool limit_has_bar = false;          // scenes of its kind have been measured
+  bool limit_answers = false;          // the limit is what was asked for, and not the value
   struct Part {
     std::string name;
     double value;
@@ -116,9 +120,17 @@ struct ErrorEstimate {
     return of.value == 0 && total() == 0;
   }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
+  double limit_bar() const { return total() - 0.5 * factor() * std::abs(cells); }
+  double limit_percent() const { return 100 * limit_bar() / std::max(std::abs(limit()), 1e-300); }
   double in_percent(double part) const {
     return 100 * part / std::max(std::abs(largest.value_or(of.value)), 1e-300);
   }  // of the value, or of `largest`
+  // of what an accuracy is asked for: the value or, if it has a bar and is known better, the limit
+  double percent() const {
+    const double of_value = in_percent(total());
+    if (!limit_has_bar) return of_value;
+    return std::min(of_value, limit_percent());
+  }
 };
 
 double order_of_force(const SolveConfig& config);  // p of its error
@@ -168,7 +180,11 @@ std::vector<ErrorEstimate> estimate_errors(const SolveConfig& config,
 struct PathErrors {
   std::vector<ErrorEstimate> at_end;
   std::map<std::string, std::vector<double>>
-      along;          // by quantity: total() at each step of the run; empty by dual solutions
+      along;  // by quantity: total() at each step of the run; empty by dual solutions
+  struct Limits {
+    std::vector<double> values, bars;
+  };
+  std::map<std::string, Limits> limits;  // the same of its limit, where limit_has_bar
   double growth = 0;  // power of 1 / length of the cells with which the CPU time grew; 0: not known
   std::vector<std::string> not_known;  // why a quantity is not in at_end, a sentence each
   std::vector<double> of_cells =
@@ -193,6 +209,9 @@ PathErrors estimated(const SolveConfig& config, const std::optional<Material>& m
 std::string in_words(const ErrorEstimate& estimate);
 std::vector<Summary> summary_of(
     const std::vector<ErrorEstimate>& estimates);  // what gather can collect
+// The numbers of a run, with the limit in place of a value where that is the answer.
+std::vector<Summary> with_answers(std::vector<Summary> numbers,
+                                  const std::vector<ErrorEstimate>& estimates);
 
 // CPU seconds that an estimate by refinement takes, about (solve/forecast.hpp)
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,

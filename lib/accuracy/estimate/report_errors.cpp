@@ -144,6 +144,12 @@ std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& conf
 SolutionWriter::Histories histories_of(const PathErrors& estimate) {
   SolutionWriter::Histories histories;
   for (const auto& [force, errors] : estimate.along) histories[force + "_error"] = errors;
+  for (const ErrorEstimate& e : estimate.at_end) {
+    const auto limits = estimate.limits.find(e.of.name);
+    if (!e.limit_answers || limits == estimate.limits.end()) continue;
+    histories[e.of.name + "_limit"] = limits->second.values;
+    histories[e.of.name + "_error"] = limits->second.bars;
+  }
   return histories;
 }
 

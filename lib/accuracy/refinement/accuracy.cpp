@@ -123,6 +123,14 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
   return !block->under && !block->even && a <= block->size[1] && a > 0.7 * block->contact_radius();
 }
 
+// Whether an estimate by refinement may answer with the limit of its meshes.
+bool limit_may_answer(const SolveConfig& config) {
+  const bool by_other_meshes = !config.estimate || *config.estimate == EstimateBy::refinement ||
+                               *config.estimate == EstimateBy::automatic;
+  const bool of_mesh = config.accuracy && config.accuracy->answer == AccuracyOf::mesh;
+  return by_other_meshes && !of_mesh;
+}
+
 bool wants_other_than_hex27(const SolveConfig& config) {
   return config.formulation && *config.formulation != Formulation::linear_dilatation;
 }
@@ -281,16 +289,21 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) &&
                      !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
-  auto level = std::find_if(levels.begin(), levels.end(),
-                            [&](const AccuracyLevel& r) { return r.error <= chosen.wanted; });
-  chosen.met = chosen.shown && level != levels.end();
+  const bool by_limit = limit_may_answer(config);
+  auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) {
+    // On longer elements the estimate does not see the shear at the edge of a contact with
+    // friction.
+    const bool limit_known = by_limit && (!has_friction(config) || r.edge <= resolves_friction);
+    return r.error <= (limit_known ? limit_is_closer : 1) * chosen.wanted;
+  });
   if (!chosen.shown) {
     chosen.level = where_to_begin(config, chosen, first);
-  } else if (chosen.met) {
+  } else if (level != levels.end()) {
     chosen.level = *level;
   } else {
     chosen.level = levels.back();
   }
+  chosen.met = chosen.shown && chosen.level.error <= chosen.wanted;
   if (!plain && !has_friction(config))
     chosen.level.step = coarsest.step;  // the force does not depend on the path
   // what relaxes wants the cells of what does not
@@ -312,7 +325,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
     chosen.words +=
         fmt::format("; in the refinement study's scenes {} the force was within {:g} %{}",
                     plain ? "without fibres and friction" : "with friction", chosen.level.error,
-                    chosen.met ? "" : ", the finest level measured");
+                    level == levels.end() ? ", the finest level measured" : "");
   return chosen;
 }
 
@@ -332,8 +345,7 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
   const bool estimated = !forces.empty();
   if (estimated) found.percent = 0;
-  for (const ErrorEstimate& e : forces)
-    found.percent = std::max(found.percent, e.in_percent(e.total()));
+  for (const ErrorEstimate& e : forces) found.percent = std::max(found.percent, e.percent());
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
   if (estimated)
@@ -380,7 +392,7 @@ OrdersSeen Accuracy::orders_since_before(const std::vector<ErrorEstimate>& estim
   OrdersSeen orders;
   std::map<std::string, double> now;
   for (const ErrorEstimate& e : estimates)
-    now[e.of.name] = e.in_percent(e.total() - std::abs(e.increments));
+    now[e.of.name] = e.percent() - e.in_percent(std::abs(e.increments));
   const double shorter = edge_before_ / chosen_->level.edge;
   for (const auto& [name, percent] : cells_before_)
     if (shorter > 1.1 && now.contains(name))
@@ -452,6 +464,24 @@ void Accuracy::solves_part(double share) {
   const double longer = std::pow(share / share_, 1.0 / static_cast<double>(axes));
   chosen_->finest = std::min(1.0, chosen_->finest * longer);
   share_ = share;
+}
+
+void Accuracy::name_answers(std::vector<ErrorEstimate>& estimates) const {
+  if (!chosen_) return;
+  const std::vector<ErrorEstimate> judged = forces_judged(estimates);
+  for (ErrorEstimate& e : estimates) {
+    const bool is_judged = std::ranges::any_of(
+        judged, [&](const ErrorEstimate& other) { return other.of.name == e.of.name; });
+    const bool on_mesh = e.in_percent(e.total()) <= chosen_->wanted;
+    e.limit_answers = is_judged && !on_mesh && e.percent() <= chosen_->wanted;
+  }
+  // The sum over several indenters goes with its parts.
+  const auto is_limit = [](const ErrorEstimate& e) {
+    return e.limit_answers && e.of.name.starts_with("force_");
+  };
+  if (std::ranges::none_of(estimates, is_limit)) return;
+  for (ErrorEstimate& e : estimates)
+    if (e.of.name == "force" && e.limit_has_bar) e.limit_answers = true;
 }
 
 // The last decision on a level: accept it if it meets the request, stop otherwise.

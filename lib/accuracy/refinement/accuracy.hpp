@@ -138,6 +138,8 @@ class Accuracy {
   // If the first mesh finds no equilibrium: whether to solve again with smaller elements. Prints
   // it.
   bool retry_after(const Failure& failure);
+  // Marks the estimates whose limit is accurate enough while their value is not.
+  void name_answers(std::vector<ErrorEstimate>& estimates) const;
   std::vector<Summary> summary(
       const std::vector<ErrorEstimate>& estimates) const;  // accuracy, of what was reached
   // Throws Failure(not_accurate) where the estimates exceed what was asked for. cheaper: what would

@@ -205,6 +205,10 @@ void ModelChoice::leave_homogeneous_point() {
   at_a_point_ = false;
 }
 
+void ModelChoice::name_answers(std::vector<ErrorEstimate>& errors) const {
+  accuracy_.name_answers(errors);
+}
+
 std::vector<Summary> ModelChoice::summary(const std::vector<ErrorEstimate>& errors) const {
   return joined({section_.summary(errors), accuracy_.summary(errors)});
 }

@@ -40,6 +40,8 @@ class ModelChoice {
   // takes here: a forecast counts both the seconds so far and those of the first mesh.
   double seconds_of_cuts(Run& run) const;
 
+  // Marks errors whose limit is accurate enough while their value is not.
+  void name_answers(std::vector<ErrorEstimate>& errors) const;
   std::vector<Summary> summary(const std::vector<ErrorEstimate>& errors) const;
   // Throws Failure(not_accurate) where the errors exceed what was asked for.
   void require_accuracy(const std::vector<ErrorEstimate>& errors, const std::string& output) const {

@@ -28,7 +28,7 @@ double percent_with(ErrorEstimate e, double edge, double step, double order) {
   e.cells *= std::pow(edge, order);
   e.increments *= step * step;
   e.scatter *= edge * edge;
-  return e.in_percent(e.total());
+  return e.percent();
 }
 
 void put_length(const ChosenLevel& chosen, double length, Geometry& geometry) {

@@ -156,6 +156,8 @@ std::string label_of(const ColumnChoice& choice) {
 
 std::string error_of(const std::string& column) { return column + "_error"; }
 
+std::string of_mesh(const std::string& column) { return column + "_of_mesh"; }
+
 std::vector<std::string> bands_of(const std::string& column) {
   return {column + "_deviation", error_of(column)};
 }
@@ -207,6 +209,11 @@ std::string error_history(const ColumnChoice& c, const std::vector<std::string>&
   return "";
 }
 
+// The history with the limit of a quantity, from that with its error.
+std::string limit_beside(const std::string& error) {
+  return error.substr(0, error.size() - std::string("_error").size()) + "_limit";
+}
+
 }  // namespace
 
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
@@ -227,7 +234,9 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
       out.push_back(further);
       names.push_back(name);
     };
-    add(error_history(c, histories), error_of(column_name(c)));
+    const std::string error = error_history(c, histories);
+    add(error, error_of(column_name(c)));
+    if (!error.empty() && word != "u_ind") add(limit_beside(error), of_mesh(column_name(c)));
     if (word == "force") add("force_deviation", column_name(c) + "_deviation");
     const std::string prefix = derivative_prefix(word, c);
     for (const std::string& history : histories)

@@ -59,13 +59,15 @@ std::vector<Complaint> quotient_complaints(const ColumnChoice& choice,
 std::string unit_of(const ColumnChoice& choice);
 std::string label_of(const ColumnChoice& choice);  // of an axis, as gnuplot's enhanced text
 
-// The columns, each followed by what the solver estimated for it: its error <name>_error (of
+// The columns, each followed by what the solver estimated for it: its error <name>_error, the
+// column <name>_of_mesh where an accuracy was met by the limit of the meshes (of
 // force, torques and reactions of moved sets), its standard deviation from the parameters, and
 // its derivatives with respect to the numbers that `sensitivity` names, such as
 // d_force_N_d_matrix_yeoh_a1.
 std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
                                       const std::vector<std::string>& histories);
 std::string error_of(const std::string& column);  // the name of that column
+std::string of_mesh(const std::string& column);
 // The names of columns that a figure draws as a band about a column. The first that exists is
 // drawn: the standard deviation from the parameters (uncertainty: linear), or the error.
 std::vector<std::string> bands_of(const std::string& column);

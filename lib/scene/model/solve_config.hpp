@@ -268,12 +268,18 @@ struct SceneBodyConfig {
 enum class AccuracyAt { end, maximum, every_step };
 constexpr auto names(AccuracyAt) { return std::array{"end", "maximum", "every_step"}; }
 
+// What has to be as accurate as asked for: the value on the mesh, or its limit on ever finer
+// meshes.
+enum class AccuracyOf { limit, mesh };
+constexpr auto names(AccuracyOf) { return std::array{"limit", "mesh"}; }
+
 // A wanted error of one quantity; "1%" is short for {within: 1%}.
 struct AccuracyConfig {
   static constexpr const char* short_key = "within";
   std::optional<std::string> of;
   std::optional<AccuracyAt> at;
   std::string within;
+  AccuracyOf answer = AccuracyOf::limit;
   AccuracyConfig() = default;
   AccuracyConfig(std::string wanted) : within(std::move(wanted)) {}
   AccuracyConfig(const char* wanted) : within(wanted) {}
@@ -287,6 +293,9 @@ struct AccuracyConfig {
       "where on the path: at its end, where the quantity is largest, or at every step, relative to the largest value. None: at the "
       "end, or at the largest value where the path ends below half of it");
     v(&AccuracyConfig::within, "within", unit::none, "wanted error, such as 1%", required);
+    v(&AccuracyConfig::answer, "answer", unit::none,
+      "what has to be as accurate as that. limit: the value on the mesh, or the limit that it and coarser meshes show, whichever is "
+      "known first; mesh: the value on the mesh");
   }
   std::vector<Complaint> complaints() const {
     std::vector<Complaint> found;
