@@ -373,6 +373,14 @@ TEST_CASE(
   REQUIRE(by_step.has_value());
   CHECK(by_step->step == near(0.25 * std::sqrt(0.15), 0.01));
   CHECK(by_step->edge > 0.15);
+  // where both matter, shorter increments cost less than as much by cells alone
+  const auto by_both = finer_level(chosen, {of(0.48, -0.39, 0.16)});
+  REQUIRE(by_both.has_value());
+  const double edge = by_both->edge / 0.16;
+  const double step = by_both->step / 0.25;
+  CHECK(0.8 * edge * edge + 0.39 * step * step <= 0.8);
+  const double with_usual_step = std::sqrt((0.8 - 0.3) / 0.8);  // 0.35 % and more are cut to 0.3 %
+  CHECK(std::pow(edge, -5) / step < 0.8 * std::pow(with_usual_step, -5) / std::sqrt(0.3 / 0.39));
   // with the order that was seen
   CHECK(finer_level(chosen, {of(1.25, 0)}, {{"force", 1}})->edge == near(0.16 * 0.8 / 1.25, 0.05));
   CHECK(!finer_level(chosen, {of(20, 0, 0, 1)}));  // not even the finest

@@ -76,6 +76,55 @@ double shortest_at_once(const ChosenLevel& chosen) {
   return factor;
 }
 
+// Factors of the mesh size and of the increments for a next level.
+struct Factors {
+  double edge = 1, step = 1;
+};
+
+// The increments that errors by increments alone ask for. The estimate from few increments scatters
+// by more than its value, and a fifth more increments cost less than smaller elements.
+double step_by_increments(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& forces) {
+  double step = 1;
+  for (const ErrorEstimate& e : forces) {
+    const double increments = e.in_percent(std::abs(e.increments));
+    if (increments > 0.35 * chosen.wanted) {
+      step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
+    } else if (increments > 0.05 * chosen.wanted) {
+      step = std::min(step, 0.8);
+    }
+  }
+  return std::max(step, 1 / most_increments_more);
+}
+
+// The mesh size that is small enough with these increments, or the smallest that is tried at once.
+double edge_with(double step, const ChosenLevel& chosen, const std::vector<ErrorEstimate>& forces,
+                 double at_once, const OrdersSeen& seen) {
+  double edge = 1;
+  for (const ErrorEstimate& e : forces) {
+    const double order = value_or(seen, e.of.name, e.order);
+    while (percent_with(e, edge, step, order) > target * chosen.wanted && edge > at_once)
+      edge *= 0.97;
+  }
+  return edge;
+}
+
+// Of the levels that are accurate enough the cheapest: half as long increments may save a mesh of
+// twice the elements. If none is accurate enough, the increments are as their own error asks.
+Factors cheapest_factors(const ChosenLevel& chosen, const std::vector<ErrorEstimate>& forces,
+                         double at_once, const OrdersSeen& seen) {
+  Factors best;
+  best.step = step_by_increments(chosen, forces);
+  best.edge = edge_with(best.step, chosen, forces, at_once, seen);
+  const auto cost = [](const Factors& f) {
+    return std::pow(f.edge, -cost_of_length) / f.step;
+  };
+  for (double step = best.step; step > 1 / most_increments_more; step *= 0.9) {
+    const Factors other{edge_with(step, chosen, forces, at_once, seen), step};
+    if (other.edge > at_once && cost(other) < cost(best)) best = other;
+  }
+  return best;
+}
+
 }  // namespace
 
 double n_cells(const Geometry& geometry) {
@@ -114,26 +163,12 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
                                          const std::vector<ErrorEstimate>& estimates,
                                          const OrdersSeen& seen) {
   AccuracyLevel finer = chosen.level;
-  const double enough = target * chosen.wanted;
-  // factors of the increment and of the mesh size
-  double step = 1;
-  double edge = 1;
   const std::vector<ErrorEstimate> forces = forces_judged(estimates);
-  for (const ErrorEstimate& e : forces) {
-    const double increments = e.in_percent(std::abs(e.increments));
-    if (increments > 0.35 * chosen.wanted) {
-      step = std::min(step, std::sqrt(0.3 * chosen.wanted / increments));
-    } else if (increments > 0.05 * chosen.wanted) {
-      // The estimate from few increments scatters by more than its value, and a fifth more
-      // increments cost less than smaller elements.
-      step = std::min(step, 0.8);
-    }
-  }
-  step = std::max(step, 1 / most_increments_more);
-  const double least = chosen.finest / chosen.level.edge;
   const double at_once = shortest_at_once(chosen);
+  const auto [edge, step] = cheapest_factors(chosen, forces, at_once, seen);
+  const double least = chosen.finest / chosen.level.edge;
   for (const ErrorEstimate& e : forces) {
-    const bool is_rough = e.in_percent(e.total()) > rough;
+    const bool is_rough = e.percent() > rough;
     double most = doubtful * chosen.wanted;
     double hoped = e.order;
     if (is_rough) {
@@ -141,8 +176,6 @@ std::optional<AccuracyLevel> finer_level(const ChosenLevel& chosen,
       hoped = std::max(hoped, 1.0);  // what a few nodes in contact show is no order
     }
     if (percent_with(e, least, step, hoped) > most) return std::nullopt;
-    const double order = value_or(seen, e.of.name, e.order);
-    while (percent_with(e, edge, step, order) > enough && edge > at_once) edge *= 0.97;
   }
   finer.edge *= edge;
   finer.step *= step;
