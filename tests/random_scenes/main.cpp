@@ -155,6 +155,7 @@ Answer asked_for(const SolveConfig& config, double seconds) {
   }
   answer.seconds = cpu_seconds() - start;
   accuracy.require(answer.solved.errors, "");
+  accuracy.name_answers(answer.solved.errors);
   return answer;
 }
 
@@ -199,6 +200,7 @@ struct Counts {
   int others = 0, others_hold = 0;   // of what no accuracy is asked of
   int steps = 0, steps_hold = 0;
   int nearer = 0;                 // limits than what was found, of forces
+  int by_limit = 0;               // answers that are limits
   std::vector<double> forecasts;  // sorted at the end
 };
 
@@ -245,9 +247,12 @@ void judge(const Options& o, const std::string& name, const Answer& answer,
       counts.without_truth += asked;
       continue;
     }
-    const double truth = t->limit(), unknown = e.in_percent(0.5 * t->total()),
-                 off = e.in_percent(e.of.value - truth);
-    const double bar = e.in_percent(e.total());
+    // The limit of the truth is known to half its bar, which is that of its value.
+    const double truth = t->limit(), unknown = e.in_percent(0.5 * t->total());
+    const double found = e.limit_answers ? e.limit() : e.of.value;
+    const double off = e.in_percent(found - truth);
+    const double bar = e.limit_answers ? e.limit_percent() : e.in_percent(e.total());
+    counts.by_limit += asked && e.limit_answers;
     std::string verdict;
     if (asked) {
       const bool in = std::abs(off) <= o.asked, sure = std::abs(std::abs(off) - o.asked) > unknown;
@@ -262,9 +267,10 @@ void judge(const Options& o, const std::string& name, const Answer& answer,
     if (asked) counts.wide += bar > 5 * (std::abs(off) + unknown);
     const double limit = e.in_percent(e.limit() - truth);
     counts.nearer += asked && e.has_limit && std::abs(limit) < std::abs(off);
+    if (e.limit_answers) verdict += " limit";
     if (!holds) verdict += " bar fails";
     fmt::print("| {} | {} | {:.4g} | {:+.2f} | {:.2f} | {:.2g} | {} | {} | {:.1f} |\n", name,
-               e.of.name, e.of.value, off, unknown, bar,
+               e.of.name, found, off, unknown, bar,
                e.has_limit ? fmt::format("{:+.2f}", limit) : "", verdict, answer.seconds);
   }
 }
@@ -338,8 +344,8 @@ int main(int argc, char** argv) try {
   fmt::print("Asked of: {} within, {} outside, {} not decided, {} without a truth. ", counts.within,
              counts.outside, counts.undecided, counts.without_truth);
   fmt::print(
-      "Their bars: {} of {} hold, {} more than five times the error. All else: {} of {} bars hold.\n",
-      counts.hold, counts.bars, counts.wide, counts.others_hold, counts.others);
+      "Their bars: {} of {} hold, {} more than five times the error; {} are limits. All else: {} of {} bars hold.\n",
+      counts.hold, counts.bars, counts.wide, counts.by_limit, counts.others_hold, counts.others);
   say_forecasts(counts);
   if (o.steps)
     fmt::print("At steps before the end: {} of {} hold.\n", counts.steps_hold, counts.steps);
