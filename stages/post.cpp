@@ -135,18 +135,19 @@ bool is_contact_value(const QuantityLine& line) { return is<OfContact>(line); }
 bool needs_shapes(const QuantityLine& line) { return line.needs.shapes; }
 bool needs_slip(const QuantityLine& line) { return is<OfContact>(line) && line.needs.shapes; }
 
-// Where an accuracy was met by the limit of the meshes, that is what a column shows, and what was
-// computed on the mesh itself stands in a column <name>_of_mesh. The latter was read from the
-// history with the limit, whose values have no sign.
+// Where the limit of the meshes is the answer to an accuracy, a column shows that limit, and the
+// next one, <name>_of_mesh, what was computed on the mesh. The latter was read from the history
+// with the share of one in the other.
 void put_limits_first(const std::vector<Measure>& measures, Columns& columns) {
   for (std::size_t c = 0; c < measures.size(); ++c) {
-    if (!measures[c].history.ends_with("_limit")) continue;
+    if (!measures[c].history.ends_with("_limit_share")) continue;
     const auto shown = std::ranges::find_if(
         columns, [&](const Column& column) { return of_mesh(column.name) == columns[c].name; });
     if (shown == columns.end()) continue;
     for (std::size_t row = 0; row < shown->values.size(); ++row)
-      columns[c].values[row] = std::copysign(columns[c].values[row], shown->values[row]);
+      columns[c].values[row] *= shown->values[row];
     std::swap(shown->values, columns[c].values);
+    columns[c].unit = shown->unit;
   }
 }
 

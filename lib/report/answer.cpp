@@ -114,10 +114,14 @@ std::string with_error(double value, const std::string& unit, const KnownError& 
   return fmt::format("{} ± {:.2g}\u00a0%", text, error.percent);
 }
 
-// A number of the last step, or the limit of the meshes where that is the answer.
-double best_known(double shown, const KnownError& error) {
-  if (!std::isfinite(error.percent)) return shown;
-  return std::copysign(error.value, shown);
+// A number of the last step, or the limit of the meshes where that is the answer at the last step.
+double best_known(double shown, const std::vector<Summary>& summary, const std::string& name) {
+  const auto has = [&](const std::string& of) {
+    return std::ranges::find(summary, name + of, &Summary::name) != summary.end();
+  };
+  if (!has("_of_mesh") || has("_judged_at")) return shown;
+  const double on_mesh = std::ranges::find(summary, name + "_of_mesh", &Summary::name)->value;
+  return shown * known_error(summary, name, shown).value / on_mesh;
 }
 
 // The verb of an indentation: a force-controlled indenter, one that is pushed back by the body, or
@@ -228,9 +232,10 @@ void describe_twist(Answer& answer, const SolutionReader& solution, const Tree& 
   const StepRecord last = solution.step(solution.n_steps() - 1);
   const double torque = last.scalars.at("torque_" + name);
   const KnownError error = known_error(solution.summary(), "torque_" + name, torque);
-  answer.sentence = fmt::format("A body of {}, turned by {:.4g}° at {}: torque {}",
-                                size_of(solution.header().mesh), last.scalars.at("angle_" + name),
-                                name, with_error(best_known(torque, error), "N\u00a0mm", error));
+  answer.sentence = fmt::format(
+      "A body of {}, turned by {:.4g}° at {}: torque {}", size_of(solution.header().mesh),
+      last.scalars.at("angle_" + name), name,
+      with_error(best_known(torque, solution.summary(), "torque_" + name), "N\u00a0mm", error));
   add_contact_facts(answer, config.find("contacts"));
 }
 
@@ -310,15 +315,19 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   const double force = resisting(step);
   const bool alone = !contacts || contacts->map.size() == 1;
   KnownError error{force, std::numeric_limits<double>::quiet_NaN()};
-  if (last && alone) error = known_error(solution.summary(), "force", force);
+  double best = force;
+  if (last && alone) {
+    error = known_error(solution.summary(), "force", force);
+    best = best_known(force, solution.summary(), "force");
+  }
   std::string indenter = shape_words(rigid);
   indenter[0] = 'A';
   std::string moment = ", at its greatest travel";
   if (last) moment = "";
-  answer.sentence = fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
-                                motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
-                                size_of(solution.header().mesh), moment,
-                                with_error(best_known(force, error), "N", error));
+  answer.sentence =
+      fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
+                  motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
+                  size_of(solution.header().mesh), moment, with_error(best, "N", error));
   if (!alone) answer.sentence += ", the sum over all indenters";
   add_contact_facts(answer, contacts);
 }

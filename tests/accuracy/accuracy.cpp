@@ -97,7 +97,7 @@ TEST_CASE("where the limit may answer, a coarser level is taken, with friction u
     config.contacts["ball"].friction = mu;
     config.accuracy = wanted;
     change(config);
-    return choose_accuracy(config, std::nullopt)->level.edge;
+    return choose_accuracy(config, std::nullopt, true)->level.edge;
   };
   const auto as_it_is = [](SolveConfig&) {
   };
@@ -111,6 +111,11 @@ TEST_CASE("where the limit may answer, a coarser level is taken, with friction u
   CHECK(edge(0.34, "1%", of_mesh) == 0.11);
   CHECK(edge(0.34, "1%", unjudged) == 0.11);
   CHECK(edge(0.34, "2%", as_it_is) == edge(0.34, "2%", of_mesh));
+  // a fit solves the level and takes its value
+  SolveConfig of_fit = indentation();
+  of_fit.contacts["ball"].friction = 0.34;
+  of_fit.accuracy = "1%";
+  CHECK(choose_accuracy(of_fit, std::nullopt)->level.edge == 0.11);
   CHECK(edge(0, "1.5%", as_it_is) == 0.175);
   CHECK(edge(0, "1.5%", of_mesh) == 0.15);
 }

@@ -42,7 +42,7 @@ struct Answered {
 // What the first level of a scene finds, as langer-solve does.
 Answered first_level(const std::string& accuracy) {
   SolveConfig config = test::config_of(scene + "accuracy: " + accuracy + "\n");
-  const ChosenLevel chosen = *choose_accuracy(config, config.material);
+  const ChosenLevel chosen = *choose_accuracy(config, config.material, true);
   Run run(body_mesh(config, "", test::nowhere), config, config.material, test::nowhere);
   std::vector<StepForces> path;
   const RunEnd end = run.follow(collecting({}, config, run, path));

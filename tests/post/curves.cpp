@@ -133,11 +133,12 @@ TEST_CASE("a force has the column of its error beside it where the solver estima
               "reaction_x_x_max_error|reaction_x_max_error", "reaction_x_bottom|"});
   CHECK(named("{quantity: force}, {history: force_error}", {"force_error"}) ==
         Names{"force|", "force_error|force_error"});
-  CHECK(named("{quantity: force}", {"force_error", "force_limit"}) ==
-        Names{"force|", "force_error|force_error", "force_of_mesh|force_limit"});
-  for (const char* name :
-       {"force_error", "force_left_error", "reaction_top_error", "force_limit", "force_left_limit"})
+  CHECK(named("{quantity: force}", {"force_error", "force_limit_share"}) ==
+        Names{"force|", "force_error|force_error", "force_of_mesh|force_limit_share"});
+  for (const char* name : {"force_error", "force_left_error", "reaction_top_error"})
     CHECK(solution::unit_of(name) == std::string("N"));
+  for (const char* name : {"force_limit_share", "force_left_limit_share", "torque_a_limit_share"})
+    CHECK(solution::unit_of(name) == std::string("-"));
 }
 
 TEST_CASE("every quantity can be measured, is finite, and is found by its own word") {

@@ -163,6 +163,19 @@ if(said MATCHES "force_of_mesh")
   message(FATAL_ERROR "answer: mesh is answered by a limit:\n${said}")
 endif()
 
+# a sphere that is drawn aside: the force of the table is that along the way, and changes by the same share
+run(0 ${BIN}/langer-solve limit.yaml -o aside.h5 --json --quiet --set accuracy=2%
+    --set "contacts.sphere.motion=[{t: 0.5, to: [0, -0.31, 0]}, {t: 1, to: [0.2, -0.31, 0]}]")
+number(force_limit_N limit)
+number(force_of_mesh_N of_mesh)
+run(0 ${BIN}/langer-post configs/post/last_force.yaml --solution aside.h5 -o aside_curves.h5 --quiet)
+execute_process(COMMAND awk -F, -v share=${limit}/${of_mesh}
+    "{ split(share, s, \"/\"); last = $2 / ($4 + ($4 == 0)) } END { off = last / (s[1] / s[2]) - 1; print last; exit !(off * off < 1e-24 && last != 1) }" aside_curves.csv
+  WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE share RESULT_VARIABLE wrong)
+if(wrong)
+  message(FATAL_ERROR "the limit is ${limit} N, ${of_mesh} N on the mesh, and the table changes by ${share}")
+endif()
+
 # an estimate that takes its turn by itself does not where it takes longer than a third of the solve
 run(0 ${BIN}/langer-solve configs/solve/axisymmetric.yaml -o auto.h5 -v --set estimate=auto)
 expect_said("errors are estimated by recovery: other meshes would take more than a third of the solve")

@@ -561,7 +561,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       if (estimate->limit_has_bar) {
         PathErrors::Limits& limits = out.limits[q.name];
         for (const ErrorEstimate& e : steps) {
-          limits.values.push_back(e.limit());
+          limits.shares.push_back(e.limit_share());
           limits.bars.push_back(e.limit_bar());
         }
         limits.bars = no_shorter_than_beside(limits.bars, itself.path, q.name);
@@ -669,7 +669,7 @@ std::vector<Summary> with_answers(std::vector<Summary> numbers,
   for (const ErrorEstimate& e : estimates) {
     if (!e.limit_answers || e.t < 1) continue;
     const auto found = std::ranges::find(numbers, e.of.name, &Summary::name);
-    if (found != numbers.end()) found->value = std::copysign(e.limit(), found->value);
+    if (found != numbers.end()) found->value *= e.limit_share();
   }
   return numbers;
 }

@@ -120,6 +120,7 @@ struct ErrorEstimate {
     return of.value == 0 && total() == 0;
   }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
+  double limit_share() const { return of.value == 0 ? 1 : limit() / of.value; }
   double limit_bar() const { return total() - 0.5 * factor() * std::abs(cells); }
   double limit_percent() const { return 100 * limit_bar() / std::max(std::abs(limit()), 1e-300); }
   double in_percent(double part) const {
@@ -182,7 +183,8 @@ struct PathErrors {
   std::map<std::string, std::vector<double>>
       along;  // by quantity: total() at each step of the run; empty by dual solutions
   struct Limits {
-    std::vector<double> values, bars;
+    std::vector<double> shares;  // limit over value
+    std::vector<double> bars;
   };
   std::map<std::string, Limits> limits;  // the same of its limit, where limit_has_bar
   double growth = 0;  // power of 1 / length of the cells with which the CPU time grew; 0: not known

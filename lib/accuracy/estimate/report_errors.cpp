@@ -147,7 +147,7 @@ SolutionWriter::Histories histories_of(const PathErrors& estimate) {
   for (const ErrorEstimate& e : estimate.at_end) {
     const auto limits = estimate.limits.find(e.of.name);
     if (!e.limit_answers || limits == estimate.limits.end()) continue;
-    histories[e.of.name + "_limit"] = limits->second.values;
+    histories[e.of.name + "_limit_share"] = limits->second.shares;
     histories[e.of.name + "_error"] = limits->second.bars;
   }
   return histories;

@@ -163,7 +163,8 @@ AccuracyLevel the_configs_own(const SolveConfig& config, CellType cells) {
 }
 
 // in thin layers with cells that are short enough for some layers of them
-AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chosen, CellType cells) {
+AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chosen, CellType cells,
+                             bool by_limit) {
   Geometry geometry = config.mesh->geometry;
   double* const edge = edge_in_contact_radii(geometry);
   if (!edge) return the_configs_own(config, cells);
@@ -178,6 +179,7 @@ AccuracyLevel where_to_begin(const SolveConfig& config, const ChosenLevel& chose
     level = to_be_cut;
   } else if (has_friction(config) && chosen.wanted < enough_for_coarsest) {
     level = coarsest_with_friction;
+    if (by_limit) level.edge = resolves_friction;
   }
   *edge = level.edge;
   while (*edge > chosen.finest && numbers_of_cells(geometry)[1] < fewest_layers) *edge *= 0.95;
@@ -247,7 +249,8 @@ const std::vector<AccuracyLevel>& accuracy_levels(bool plain) {
 }
 
 std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
-                                           const std::optional<Material>& material, bool cuts) {
+                                           const std::optional<Material>& material,
+                                           bool by_estimate) {
   if (!asks_for_accuracy(config)) return std::nullopt;
   constexpr double by_name[]{5, 1, 0.2};
   ChosenLevel chosen;
@@ -262,7 +265,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   }
   const bool may_be_cut =
       !config.mesh || (config.mesh->cells == CellType::hex8 && !is_section(config.mesh->geometry));
-  chosen.cut = cuts && may_be_cut && reason_not_refinable(config).empty();
+  chosen.cut = by_estimate && may_be_cut && reason_not_refinable(config).empty();
   if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) {  // judged as it is
     chosen.level = {config.mesh ? config.mesh->cells : CellType::hex8, 1,
                     config.path.largest_increment(), 0, false};
@@ -289,7 +292,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   const bool plain = chosen.shown && !wants_other_than_hex27(config) && !has_friction(config) &&
                      !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
-  const bool by_limit = limit_may_answer(config);
+  const bool by_limit = by_estimate && limit_may_answer(config);
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) {
     // On longer elements the estimate does not see the shear at the edge of a contact with
     // friction.
@@ -297,7 +300,7 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
     return r.error <= (limit_known ? limit_is_closer : 1) * chosen.wanted;
   });
   if (!chosen.shown) {
-    chosen.level = where_to_begin(config, chosen, first);
+    chosen.level = where_to_begin(config, chosen, first, by_limit);
   } else if (level != levels.end()) {
     chosen.level = *level;
   } else {

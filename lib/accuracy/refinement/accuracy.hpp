@@ -63,11 +63,12 @@ struct ChosenLevel {
 // the coarsest hex8, or the config's own cells and increments where these are no lengths in contact
 // radii: their own error decides (Accuracy). Shorter cells and increments than the level's stay, if
 // the config has them; what does not is named in `words`. material: of the bodies that the config
-// names none for. cuts: who solves it cuts cells where the error comes from, if the scene is one
-// for that (accuracy/refinement/adaptive_cells.hpp): then with coarse cells.
+// names none for. by_estimate: who solves it judges the solution by its own estimate. Then cells
+// may be coarser, since they are cut where the error comes from
+// (accuracy/refinement/adaptive_cells.hpp) or the limit of the meshes may be the answer.
 std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
                                            const std::optional<Material>& material,
-                                           bool cuts = false);
+                                           bool by_estimate = false);
 
 // What was reached of it: the largest estimated error of a force; what the level promises where
 // nothing was estimated.

@@ -36,7 +36,7 @@ constexpr double limit_is_closer = 1.5;
 // elements were half the error: `make work-precision`, docs/work_precision.md.
 constexpr AccuracyLevel coarsest{CellType::hex8, 0.175, 0.25, 0};
 constexpr double resolves_friction = 0.14;  // mesh size [contact radii] that resolves that shear
-constexpr AccuracyLevel coarsest_with_friction{CellType::hex8, resolves_friction, 0.25, 0};
+constexpr AccuracyLevel coarsest_with_friction{CellType::hex8, 0.125, 0.25, 0};
 constexpr AccuracyLevel bent{CellType::hex27, 0.5, 0.25, 0};       // sheets that bend
 constexpr AccuracyLevel to_be_cut{CellType::hex8, 0.25, 0.25, 0};  // locally refined meshes
 constexpr AccuracyLevel of_disc{CellType::hex8, 0.07, 0.25, 0};    // sections

@@ -209,9 +209,9 @@ std::string error_history(const ColumnChoice& c, const std::vector<std::string>&
   return "";
 }
 
-// The history with the limit of a quantity, from that with its error.
+// The history with the limit of a quantity over its value, from that with its error.
 std::string limit_beside(const std::string& error) {
-  return error.substr(0, error.size() - std::string("_error").size()) + "_limit";
+  return error.substr(0, error.size() - std::string("_error").size()) + "_limit_share";
 }
 
 }  // namespace
