@@ -116,8 +116,9 @@ TEST_CASE("where the limit may answer, a coarser level is taken, with friction u
   of_fit.contacts["ball"].friction = 0.34;
   of_fit.accuracy = "1%";
   CHECK(choose_accuracy(of_fit, std::nullopt)->level.edge == 0.11);
-  CHECK(edge(0, "1.5%", as_it_is) == 0.175);
-  CHECK(edge(0, "1.5%", of_mesh) == 0.15);
+  CHECK(edge(0, "1%", as_it_is) == 0.175);
+  CHECK(edge(0, "1%", of_mesh) == 0.15);
+  CHECK(edge(0, "0.9%", as_it_is) == 0.15);
 }
 
 TEST_CASE(

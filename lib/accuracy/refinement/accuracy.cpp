@@ -293,11 +293,13 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
                      !has_fibres(config, material);
   const auto& levels = accuracy_levels(plain);
   const bool by_limit = by_estimate && limit_may_answer(config);
+  double closer = limit_is_closer;
+  if (plain && chosen.wanted >= enough_for_smooth_limit) closer = limit_is_closer_smooth;
   auto level = std::find_if(levels.begin(), levels.end(), [&](const AccuracyLevel& r) {
     // On longer elements the estimate does not see the shear at the edge of a contact with
     // friction.
     const bool limit_known = by_limit && (!has_friction(config) || r.edge <= resolves_friction);
-    return r.error <= (limit_known ? limit_is_closer : 1) * chosen.wanted;
+    return r.error <= (limit_known ? closer : 1) * chosen.wanted;
   });
   if (!chosen.shown) {
     chosen.level = where_to_begin(config, chosen, first, by_limit);

@@ -31,6 +31,9 @@ constexpr AccuracyLevel other_levels[]{
 // Where the limit of the meshes may be the answer, a level is tried whose own error is larger by
 // this factor than what is asked for: the limit is closer than the value (docs/study_estimates.md).
 constexpr double limit_is_closer = 1.5;
+// Without friction and fibres, from 1 % on: below that, single nodes in contact decide the bar.
+constexpr double limit_is_closer_smooth = 2;
+constexpr double enough_for_smooth_limit = 1;  // requested error [%]
 
 // First levels of scenes that the study does not contain. With friction, the estimates on larger
 // elements were half the error: `make work-precision`, docs/work_precision.md.
