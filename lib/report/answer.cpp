@@ -108,20 +108,10 @@ double resisting(const StepRecord& step) {
 
 // A force or torque with its error bar, if an estimate is available.
 std::string with_error(double value, const std::string& unit, const KnownError& error) {
-  std::string text = rounded(value, error.percent);
+  std::string text = rounded(error.share * value, error.percent);
   if (!unit.empty()) text += "\u00a0" + unit;
   if (!std::isfinite(error.percent)) return text;
   return fmt::format("{} ± {:.2g}\u00a0%", text, error.percent);
-}
-
-// A number of the last step, or the limit of the meshes where that is the answer at the last step.
-double best_known(double shown, const std::vector<Summary>& summary, const std::string& name) {
-  const auto has = [&](const std::string& of) {
-    return std::ranges::find(summary, name + of, &Summary::name) != summary.end();
-  };
-  if (!has("_of_mesh") || has("_judged_at")) return shown;
-  const double on_mesh = std::ranges::find(summary, name + "_of_mesh", &Summary::name)->value;
-  return shown * known_error(summary, name, shown).value / on_mesh;
 }
 
 // The verb of an indentation: a force-controlled indenter, one that is pushed back by the body, or
@@ -232,10 +222,9 @@ void describe_twist(Answer& answer, const SolutionReader& solution, const Tree& 
   const StepRecord last = solution.step(solution.n_steps() - 1);
   const double torque = last.scalars.at("torque_" + name);
   const KnownError error = known_error(solution.summary(), "torque_" + name, torque);
-  answer.sentence = fmt::format(
-      "A body of {}, turned by {:.4g}° at {}: torque {}", size_of(solution.header().mesh),
-      last.scalars.at("angle_" + name), name,
-      with_error(best_known(torque, solution.summary(), "torque_" + name), "N\u00a0mm", error));
+  answer.sentence = fmt::format("A body of {}, turned by {:.4g}° at {}: torque {}",
+                                size_of(solution.header().mesh), last.scalars.at("angle_" + name),
+                                name, with_error(torque, "N\u00a0mm", error));
   add_contact_facts(answer, config.find("contacts"));
 }
 
@@ -315,11 +304,7 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   const double force = resisting(step);
   const bool alone = !contacts || contacts->map.size() == 1;
   KnownError error{force, std::numeric_limits<double>::quiet_NaN()};
-  double best = force;
-  if (last && alone) {
-    error = known_error(solution.summary(), "force", force);
-    best = best_known(force, solution.summary(), "force");
-  }
+  if (last && alone) error = known_error(solution.summary(), "force", force);
   std::string indenter = shape_words(rigid);
   indenter[0] = 'A';
   std::string moment = ", at its greatest travel";
@@ -327,7 +312,7 @@ void describe_contact(Answer& answer, const SolutionReader& solution, const Tree
   answer.sentence =
       fmt::format("{} {} {:.4g} mm {} into a body of {}{}: {}", indenter,
                   motion_words(first, force), step.u_ind.norm(), along(step.u_ind),
-                  size_of(solution.header().mesh), moment, with_error(best, "N", error));
+                  size_of(solution.header().mesh), moment, with_error(force, "N", error));
   if (!alone) answer.sentence += ", the sum over all indenters";
   add_contact_facts(answer, contacts);
 }
@@ -449,10 +434,14 @@ KnownError known_error(const std::vector<Summary>& summary, const std::string& n
   // The computed number is the extrapolated limit plus the errors of the mesh and the increments.
   double number =
       value(name + "_limit") + value(name + "_error_cells") + value(name + "_error_increments");
-  const bool limit_answers = !std::isnan(value(name + "_of_mesh"));
-  if (limit_answers) number = value(name + "_limit");
+  double share = 1;
+  if (const double on_mesh = value(name + "_of_mesh"); !std::isnan(on_mesh)) {
+    number = value(name + "_limit");
+    const bool at_last_step = std::isnan(value(name + "_judged_at"));
+    if (at_last_step) share = number / on_mesh;
+  }
   if (std::isnan(number)) number = fallback;
-  return {number, 100 * value(name + "_error") / std::abs(number)};
+  return {number, 100 * value(name + "_error") / std::abs(number), share};
 }
 
 // Two digits of the error if it begins with 1, otherwise one.

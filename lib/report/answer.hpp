@@ -27,9 +27,10 @@ struct Answer {
 // A number of the summary with its estimated discretisation error in percent; NaN without an
 // estimate. The number is the limit of the meshes where the solver gave that as its answer.
 // Otherwise it is the sum of its limit and its errors in the summary; if they are missing,
-// `fallback`.
+// `fallback`. share: by how much the limit at the last step is larger than what was computed there;
+// 1 where it is no answer.
 struct KnownError {
-  double value = 0, percent = 0;
+  double value = 0, percent = 0, share = 1;
 };
 KnownError known_error(const std::vector<Summary>& summary, const std::string& name,
                        double fallback);

@@ -109,7 +109,9 @@ void judge_errors(const AddVerdict& add, const std::vector<Summary>& summary, do
     const std::string name = s.name.substr(0, s.name.size() - 6);
     double fallback = std::numeric_limits<double>::quiet_NaN();
     if (name == "force") fallback = force;
-    const auto [value, percent] = known_error(summary, name, fallback);
+    const KnownError known = known_error(summary, name, fallback);
+    const double value = known.value;
+    const double percent = known.percent;
     if (!std::isfinite(value) || value == 0) continue;
     any = true;
     std::string number = rounded(value, percent);
