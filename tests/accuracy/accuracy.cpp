@@ -110,6 +110,8 @@ TEST_CASE("where the limit may answer, a coarser level is taken, with friction u
   CHECK(edge(0.34, "1%", as_it_is) == 0.14);
   CHECK(edge(0.34, "1%", of_mesh) == 0.11);
   CHECK(edge(0.34, "1%", unjudged) == 0.11);
+  CHECK(edge(0.34, "1%",
+             [](SolveConfig& config) { config.accuracy->at = AccuracyAt::every_step; }) == 0.11);
   CHECK(edge(0.34, "2%", as_it_is) == edge(0.34, "2%", of_mesh));
   // a fit solves the level and takes its value
   SolveConfig of_fit = indentation();

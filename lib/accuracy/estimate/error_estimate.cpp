@@ -229,6 +229,12 @@ double order_of_force(const SolveConfig& config) {
   return order;
 }
 
+bool needs_the_mesh(const SolveConfig& config) {
+  if (!config.accuracy) return false;
+  return config.accuracy->answer == AccuracyOf::mesh ||
+         config.accuracy->at == AccuracyAt::every_step;
+}
+
 std::vector<Valued> forces_judged(const std::vector<Valued>& found) { return forces_among(found); }
 std::vector<ErrorEstimate> forces_judged(const std::vector<ErrorEstimate>& estimates) {
   return forces_among(estimates);
@@ -406,13 +412,6 @@ ErrorEstimate worst_of(const std::vector<ErrorEstimate>& steps) {
 }
 
 namespace {
-
-// Whether the value on the mesh itself has to be accurate, and not its limit alone.
-bool needs_the_mesh(const SolveConfig& config) {
-  if (!config.accuracy) return false;
-  return config.accuracy->answer == AccuracyOf::mesh ||
-         config.accuracy->at == AccuracyAt::every_step;
-}
 
 bool is_asked(const SolveConfig& config, const std::string& name) {
   if (!config.accuracy) return false;

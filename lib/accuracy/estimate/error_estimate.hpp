@@ -136,6 +136,9 @@ struct ErrorEstimate {
 
 double order_of_force(const SolveConfig& config);  // p of its error
 
+// Whether an accuracy needs the value on the mesh itself, and not its limit alone.
+bool needs_the_mesh(const SolveConfig& config);
+
 // share of a force that nodes may make which come into contact one by one, from the number of those
 // that touch (run/step_forces.hpp)
 double one_by_one(double touching, bool section);

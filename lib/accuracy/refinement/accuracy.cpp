@@ -127,8 +127,7 @@ bool of_the_studys_kind(const SolveConfig& config, const std::optional<Footprint
 bool limit_may_answer(const SolveConfig& config) {
   const bool by_other_meshes = !config.estimate || *config.estimate == EstimateBy::refinement ||
                                *config.estimate == EstimateBy::automatic;
-  const bool of_mesh = config.accuracy && config.accuracy->answer == AccuracyOf::mesh;
-  return by_other_meshes && !of_mesh;
+  return by_other_meshes && !needs_the_mesh(config);
 }
 
 bool wants_other_than_hex27(const SolveConfig& config) {
