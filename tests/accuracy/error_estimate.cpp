@@ -1,5 +1,6 @@
 // Estimated errors against true ones.
 #include "accuracy/estimate/error_estimate.hpp"
+#include "accuracy/estimate/least_scatter.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
 // The error bars that a config without `estimate` gets, and where it gets none.
 #include "accuracy/estimate/recovered_path.hpp"
+#include "accuracy/estimate/least_scatter.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

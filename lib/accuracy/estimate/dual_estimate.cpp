@@ -8,6 +8,7 @@
 
 #include "accuracy/estimate/cell_parts.hpp"
 #include "accuracy/estimate/energy_error.hpp"
+#include "accuracy/estimate/least_scatter.hpp"
 #include "mechanics/mesh/hanging.hpp"
 #include "mechanics/solve/state_tangent.hpp"
 #include "scene/run/step_forces.hpp"

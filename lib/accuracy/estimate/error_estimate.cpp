@@ -7,10 +7,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "accuracy/estimate/dual_estimate.hpp"
+#include "accuracy/estimate/least_scatter.hpp"
 #include "accuracy/estimate/observed_law.hpp"
 #include "accuracy/estimate/refinements.hpp"
 #include "accuracy/estimate/truncation.hpp"
@@ -93,54 +93,6 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
-// The greatest stress below an indenter lies between points of the cells, wherever these are: by
-// how much it may be missed, relative to it, is a share of the cells' length in contact radii.
-double between_points(double touching, bool section) {
-  if (touching < 1) return 0;
-  // Mesh size in contact radii: the touching nodes fill a disc, or a radius of a section.
-  double size = std::sqrt(std::numbers::pi / touching);
-  if (section) size = 1 / touching;
-  return std::min(0.5, 0.6 * size);
-}
-
-// Under a punch it lies at the rounded edge, in as many cells fewer as that is shorter than the
-// punch.
-double sharpness(const SolveConfig& config) {
-  double most = 1;
-  for (const auto& [name, contact] : config.contacts)
-    most = std::max(most, edge_sharpness(contact.rigid.value()));
-  return most;
-}
-
-// Where the cells are as long as the rounding of a punch's edge, what touches ends anywhere on it:
-// share of the force (docs/work_precision.md).
-double round_an_edge(const SolveConfig& config, double touching, bool section) {
-  const double sharp = sharpness(config);
-  if (sharp <= 1 || touching < 1) return 0;
-  if (section) return std::min(0.5, sharp / (touching * touching));
-  return std::min(0.5, 0.8 * sharp / touching);
-}
-
-double greatest_friction(const SolveConfig& config) {
-  double most = 0;
-  for (const auto& [name, contact] : config.contacts) most = std::max(most, contact.friction);
-  return most;
-}
-
-// 1 where all of the contact but its edge sticks.
-double share_that_sticks(const SolveConfig& config) {
-  constexpr double all_stick = 0.2;  // friction from which on that is so
-  return std::min(1.0, greatest_friction(config) / all_stick);
-}
-
-// The shear at the edge of a contact with friction, on a section: three meshes of few cells may
-// agree by chance. Drawn spheres with 14 nodes in contact missed 0.5 % (langer-random-scenes FOLDER
-// kind=section).
-double shear_on_section(const SolveConfig& config, double touching, bool section) {
-  if (!section || touching < 1) return 0;
-  return std::min(0.5, share_that_sticks(config) / (touching * touching));
-}
-
 // Whether a face of the body is held or moved in its plane, too: at its edges stresses are
 // singular.
 bool is_clamped(const SolveConfig& config) {
@@ -153,18 +105,6 @@ bool is_clamped(const SolveConfig& config) {
   }
   return std::any_of(given.begin(), given.end(),
                      [](const auto& on) { return on.second.size() > 1; });
-}
-
-// At the edges of a clamped face errors are of first order. Where values on three meshes go to and
-// fro, other errors of few cells hide them: drawn blocks of four hex27 across missed up to 0.022 of
-// a cell's share of the width (langer-random-scenes FOLDER kind=shear).
-double beside_clamps(const SolveConfig& config) {
-  if (!config.mesh || !has_numbers_of_cells(config.mesh->geometry)) return 0;
-  int fewest = 0;
-  for (int n : numbers_of_cells(config.mesh->geometry))
-    if (n > 1 && (fewest == 0 || n < fewest)) fewest = n;
-  if (fewest == 0) return 0;
-  return 0.03 / fewest;
 }
 
 const Valued& quantity(const Valued& found) { return found; }
@@ -194,29 +134,6 @@ std::vector<Item> forces_among(const std::vector<Item>& all) {
 }  // namespace
 
 bool Valued::of_contact() const { return of_force() || of_travel(); }
-
-double shear_at_edge(const SolveConfig& config, double touching) {
-  if (touching < 1) return 0;
-  return share_that_sticks(config) * std::min(0.5, 1.6 / touching);
-}
-
-// What nodes that come into contact one by one make of a force, relative to it (make
-// work-precision; sections: langer-random-scenes FOLDER kind=section).
-double one_by_one(double touching, bool section) {
-  if (touching < 1) return 0;
-  if (section) return std::min(0.5, 0.6 / (touching * touching));
-  return std::min(0.5, 3.1 * std::pow(touching, -1.5));
-}
-
-namespace {
-
-// The same of a pull: bonds let go gradually, and a node with them counts less.
-double bond_by_bond(double touching, bool section) {
-  if (!section || touching < 1) return one_by_one(touching, section);
-  return std::min(0.5, 0.25 / (touching * touching));
-}
-
-}  // namespace
 
 // A rigid face presses an edge into the body, its own or the body's: there stresses are singular,
 // and errors fall with h alone. So they do where a force is passed on by a clamped face; below an
@@ -503,19 +420,21 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     const double touching =
         touching_at(all.meshes_for(q).of.front().path, q.of_force() ? q.name : "force", t);
     if (q.name == "von_mises_max")
-      e.scatter = std::max(e.scatter, 0.5 * sharpness(config) * between_points(touching, section) *
-                                          std::abs(q.value));
+      e.scatter =
+          std::max(e.scatter, 0.5 * between_points(config, touching, section) * std::abs(q.value));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.unit != unit::MPa) e.scatter = std::max(e.scatter, 0.5 * beside_end * std::abs(q.value));
     if (law && law->scatter > 0 && q.of_force())
       e.scatter = std::max(e.scatter, 0.5 * beside_clamp * std::abs(q.value));
     if (q.of_contact()) {
-      double single = one_by_one(touching, section);
+      double single = on_layer * one_by_one(touching, section);
       if (q.name == "pull_off") single = bond_by_bond(touching, section);
-      e.scatter = std::max({e.scatter, 0.5 * single * std::abs(q.value),
+      e.by_single_nodes = 0.5 * single * std::abs(q.value);
+      e.scatter = std::max({e.scatter, e.by_single_nodes,
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
                             0.5 * shear_on_section(config, touching, section) * std::abs(q.value),
+  const double on_layer = on_thin_layer(config);
                             0.5 * beside_hole * std::abs(q.value)});
       if (refined.edge_unresolved)  // without a sign: three such meshes tell none of it
         e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) -

@@ -13,12 +13,14 @@
 //               neither friction nor time makes the path matter. Between deformable surfaces with
 //               friction of first order: r / (r - 1)
 //   scatter     root mean square of what the fit leaves, and at least a share that falls with the
-//               number n of nodes in contact, which come into contact one by one (one_by_one())
+//               number n of nodes in contact, which come into contact one by one
+//               (accuracy/estimate/least_scatter.hpp)
 //   solver      the last residual relative to the forces that it balances
 //   total       F |cells| + |increments| + 2 scatter + solver. F = 1; where p = 1 Roache's factor
 //               of safety for three meshes, 1.25; 2 where the order is only observed
 //   limit       q - cells - increments
-//   limit_bar   F |cells| / 2 + |increments| + 2 scatter + solver, for forces of indenters on blocks
+//   limit_bar   F |cells| / 2 + |increments| + 2 scatter + solver, with a doubled lower limit of the
+//               scatter; for forces of indenters on blocks
 //               (docs/study_estimates.md, "The limit as the answer")
 //   left out    effect of what a body leaves out that stands for a larger one, if the config asks
 //               for it (accuracy/estimate/truncation.hpp); not in total
@@ -99,8 +101,11 @@ struct ErrorEstimate {
   // order is known less well than one that both agree on: Roache's factor is 1.25 for these.
   bool order_observed = false;
   bool cells_with_increments = false;  // `cells` is the error of both, found together
-  bool limit_has_bar = false;          // scenes of its kind have been measured
-  bool limit_answers = false;          // the limit is what was asked for, and not the value
+  // The least scatter, from nodes that come into contact one by one. The fit of three meshes
+  // multiplies it, so that their limit has twice as much.
+  double by_single_nodes = 0;
+  bool limit_has_bar = false;  // scenes of its kind have been measured
+  bool limit_answers = false;  // the limit is what was asked for, and not the value
   struct Part {
     std::string name;
     double value;
@@ -121,7 +126,10 @@ struct ErrorEstimate {
   }  // as the force of an indenter that touches nothing: no percent
   double limit() const { return of.value - cells - increments; }
   double limit_share() const { return of.value == 0 ? 1 : limit() / of.value; }
-  double limit_bar() const { return total() - 0.5 * factor() * std::abs(cells); }
+  double limit_bar() const {
+    return 0.5 * factor() * std::abs(cells) + std::abs(increments) +
+           2 * std::max(scatter, 2 * by_single_nodes) + solver;
+  }
   double limit_percent() const { return 100 * limit_bar() / std::max(std::abs(limit()), 1e-300); }
   double in_percent(double part) const {
     return 100 * part / std::max(std::abs(largest.value_or(of.value)), 1e-300);
@@ -138,13 +146,6 @@ double order_of_force(const SolveConfig& config);  // p of its error
 
 // Whether an accuracy needs the value on the mesh itself, and not its limit alone.
 bool needs_the_mesh(const SolveConfig& config);
-
-// share of a force that nodes may make which come into contact one by one, from the number of those
-// that touch (run/step_forces.hpp)
-double one_by_one(double touching, bool section);
-// and what the shear at the edge of a contact with friction adds: 0.7 times the square of the
-// nodes' distance in contact radii
-double shear_at_edge(const SolveConfig& config, double touching);
 
 // The forces that an accuracy is asked of: those on indenters, of several their own, since a sum
 // may be none; without indenters the reactions; and torques; where forces alone load the body, the

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "accuracy/estimate/least_scatter.hpp"
 #include "accuracy/estimate/observed_law.hpp"
 #include "accuracy/estimate/refinements.hpp"
 #include "scene/run/body_mesh.hpp"

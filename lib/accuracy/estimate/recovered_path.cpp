@@ -7,6 +7,7 @@
 #include <map>
 
 #include "accuracy/estimate/cell_parts.hpp"
+#include "accuracy/estimate/least_scatter.hpp"
 
 namespace langer {
 

@@ -10,6 +10,7 @@
 #include "accuracy/refinement/constants.hpp"
 #include "accuracy/refinement/level_cost.hpp"
 #include "core/base/text.hpp"
+#include "scene/model/supports.hpp"
 #include "scene/run/footprint.hpp"
 
 namespace langer {
@@ -43,17 +44,6 @@ void place_cells(IndentedBlock& block, const Footprint& print) {
     block.even.emplace();
     for (int k : {0, 1}) (*block.even)[static_cast<std::size_t>(k)] = print.half(k) + 0.1 * a;
   }
-}
-
-bool is_at_bottom(const SupportConfig& support) {
-  return support.on == "bottom" || support.on == "y_min";
-}
-
-// Whether no support holds the bottom along y.
-bool has_nothing_below(const SolveConfig& config) {
-  return std::ranges::none_of(config.supports, [](const SupportConfig& support) {
-    return is_at_bottom(support) && std::ranges::count(support.hold, Axis::y) > 0;
-  });
 }
 
 // Whether the body lies on its bottom, as the study's bodies do: each support holds all of the

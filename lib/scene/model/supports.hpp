@@ -1,0 +1,13 @@
+// Where the supports of a config hold the body.
+#pragma once
+
+#include "scene/model/solve_config.hpp"
+
+namespace langer {
+
+bool is_at_bottom(const SupportConfig& support);
+
+// Whether no support holds the bottom along y, as under a sheet that is held at its rims.
+bool has_nothing_below(const SolveConfig& config);
+
+}  // namespace langer
