@@ -135,6 +135,42 @@ TEST_CASE("what the sides of a narrow disc change is told, and of a wide one tha
   }
 }
 
+TEST_CASE("what is left out is that of the force which is judged, also before the end") {
+  SolveConfig config = disc(0.25, 0);
+  config.truncation = {Truncation::sides};
+  std::get<IndentedDisc>(config.mesh->geometry).size[0] = 6;
+  auto& motion = config.contacts.begin()->second.motion;
+  const double depth = motion.back().to[1];
+  const auto left_out = [&](std::vector<WaypointConfig> path) {
+    motion = std::move(path);
+    const ErrorEstimate e = estimate_of(config).at_end[0];
+    REQUIRE(e.left_out.size() == 1);
+    return e.in_percent(e.left_out[0].value);
+  };
+  const double pressed = left_out({{1, {0, depth, 0}}});
+  CHECK(std::abs(pressed) > 1);
+  CHECK(left_out({{0.5, {0, depth, 0}}, {1, {0, 0.2 * depth, 0}}}) == near(pressed, 1e-3));
+  CHECK(left_out({{0.5, {0, depth, 0}}, {1, {0, 0, 0}}}) == near(pressed, 1e-3));
+}
+
+TEST_CASE("of an indenter with a given force it is the travel that is changed") {
+  SolveConfig config = disc(0.25, 0);
+  config.truncation = {Truncation::sides};
+  std::get<IndentedDisc>(config.mesh->geometry).size[0] = 6;
+  ContactConfig& contact = config.contacts.begin()->second;
+  const double force = solved_path(config, config.material, nowhere).found[0].value;
+  contact.motion.clear();
+  contact.control.emplace();
+  contact.control->force = HistoryConfig{force};
+  std::map<std::string, double> percent;
+  for (const ErrorEstimate& e : estimate_of(config).at_end)
+    for (const ErrorEstimate::Part& part : e.left_out)
+      percent[e.of.name] = e.in_percent(part.value);
+  REQUIRE(percent.size() == 1);
+  CHECK(percent.begin()->first.starts_with("travel_"));
+  CHECK(std::abs(percent.begin()->second) > 0.5);
+}
+
 TEST_CASE("wider and thicker bodies keep the surface and the place below the indenter") {
   SolveConfig block;
   block.mesh.emplace();

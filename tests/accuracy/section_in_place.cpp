@@ -189,6 +189,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the sides are measured where the force is judged, and not where the indenter has left") {
+  const auto sides = [](std::vector<WaypointConfig> motion) {
+    SolveConfig config = pressed(7, 7, 2, 0.3536);
+    config.reduce = Reduce::automatic;
+    config.accuracy = "10%";
+    config.contacts["ball"].motion = std::move(motion);
+    const SectionInPlace section(silent, config, config.material, nowhere, false);
+    REQUIRE(section.taken());
+    return named(section.summary({}), "force_error_sides");
+  };
+  const double pressed_only = sides({{1, {0, -0.6, 0}}});
+  CHECK(pressed_only > 1e-3);
+  CHECK(sides({{0.5, {0, -0.6, 0}}, {1, {0, -0.1, 0}}}) == near(pressed_only, 1e-3));
+  CHECK(sides({{0.5, {0, -0.6, 0}}, {1, {0, 0.1, 0}}}) == near(pressed_only, 1e-3));
+}
+
 TEST_CASE(
     "a section is taken where its sides change less than is allowed, and names what they change") {
   SolveConfig wide = pressed(24, 24, 2, 0.3536), narrow = pressed(5, 5, 2.5, 0.3536);

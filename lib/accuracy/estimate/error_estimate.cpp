@@ -235,6 +235,15 @@ std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const 
 namespace {
 
 // What an estimate by refinement has solved.
+// Whether the config gives a force, and the travel of the indenter is the result.
+bool is_given(const SolveConfig& config, const std::string& name) {
+  return std::ranges::any_of(config.contacts, [&](const auto& one) {
+    const auto& [contact, of] = one;
+    return of.control &&
+           (name == "force_" + contact || (name == "force" && config.contacts.size() == 1));
+  });
+}
+
 struct Solutions {
   Family family, same_cells;  // hex8; the cells of the run, where these are others
   std::vector<SolvedPath>
@@ -251,17 +260,17 @@ struct Solutions {
     if ((q.of_force() && !family.of.empty()) || same_cells.of.empty()) return family;
     return same_cells;
   }
-  // what the body leaves out, on the longest cells
-  std::vector<ErrorEstimate::Part> left_out(const Valued& q) const {
+  // what the body leaves out of a quantity at t, on the longest cells
+  std::vector<ErrorEstimate::Part> left_out(const Valued& q, double t) const {
     std::vector<ErrorEstimate::Part> parts;
     for (const auto& [truncation, two] : wide) {
-      const auto at_end = [&](const SolvedPath& path) {
-        return force_at(path.path, q.name, 1);
+      const auto on = [&](const SolvedPath& path) {
+        return force_at(path.path, q.name, t);
       };
-      const double f = at_end(meshes_for(q).of.back());
+      const double f = on(any().of.back());
       if (f != 0)
         parts.push_back({names(truncation)[static_cast<int>(truncation)],
-                         q.value / f * beyond(f, at_end(two[0]), at_end(two[1]))});
+                         q.value / f * beyond(f, on(two[0]), on(two[1]))});
     }
     return parts;
   }
@@ -308,11 +317,11 @@ double judged_at(const SolveConfig& config, const std::vector<StepForces>& path,
   double where = 1;
   for (const StepForces& step : path) {
     const auto found = step.of.find(name);
-    if (found == step.of.end() || found->second <= largest) continue;
-    largest = found->second;
+    if (found == step.of.end() || std::abs(found->second) <= largest) continue;
+    largest = std::abs(found->second);
     where = step.t;
   }
-  const bool ends_low = force_at(path, name, 1) < 0.5 * largest;
+  const bool ends_low = std::abs(force_at(path, name, 1)) < 0.5 * largest;
   if (at || ends_low) return where;
   return 1;
 }
@@ -486,7 +495,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       }
     }
     if (q.name == "pull_off") estimate->increments -= pull_between_steps(itself.path);
-    if (q.of_force()) estimate->left_out = all.left_out(q);
+    if (q.of_contact() && !is_given(config, q.name))
+      estimate->left_out = all.left_out(estimate->of, estimate->t);
     out.at_end.push_back(*estimate);
   }
   mark_asked(config, where, itself.found, out.at_end);

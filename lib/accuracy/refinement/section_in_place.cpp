@@ -81,6 +81,14 @@ bool is_round(const ContactConfig& contact, const Vec3& axis) {
                      [](const WaypointConfig& w) { return w.to[0] == 0 && w.to[2] == 0; });
 }
 
+// of a quantity that is known at each step, or at the end only
+double value_of(const SolvedPath& solved, const std::string& name, double t) {
+  if (!solved.path.empty() && solved.path.back().of.contains(name))
+    return force_at(solved.path, name, t);
+  const auto found = std::ranges::find(solved.found, name, &Valued::name);
+  return found == solved.found.end() ? 0 : found->value;
+}
+
 void shift(std::array<double, 3>& x, const Vec3& by) {
   for (int k = 0; k < 3; ++k) x[static_cast<std::size_t>(k)] -= by[k];
 }
@@ -165,9 +173,13 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   SolveConfig chosen = asked_;
   accuracy_ = choose_accuracy(chosen, material);
   auto section = on_a_disc(chosen, material, radii_.alike);
-  if (!section)
-    return voice_.say(
-        "reduce: no indented_block here whose scene is the same around an axis; the body is solved as it is");
+  if (!section) {
+    const bool given = std::ranges::any_of(
+        asked_.contacts, [](const auto& contact) { return contact.second.control.has_value(); });
+    return voice_.say("reduce: {}; the body is solved as it is",
+                      given ? "an indenter with a given force"
+                            : "no indented_block here whose scene is the same around an axis");
+  }
   if (dry) return voice_.say("reduce: a section may take the block's place (not with --dry-run)");
   if (accuracy_) {
     const bool bilinear =
@@ -201,22 +213,39 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
 // on meshes alike near the indenter, without what is no matter there
 void SectionInPlace::measure_sides(const SolveConfig& section,
                                    const std::optional<Material>& material, const Where& where) {
-  const auto forces = [&](double radius) {
+  const auto solved = [&](double radius) {
     SolveConfig disc = section;
     std::get<IndentedDisc>(disc.mesh->geometry).size[0] = radius;
     disc.mesh->points.clear();
-    return forces_judged(end_of_path(disc, material, where));
+    return solved_path(disc, material, where);
   };
-  const auto alike = forces(radii_.alike);
-  const auto inside = forces(radii_.inside);
-  const auto around = forces(radii_.around);
-  for (std::size_t i = 0; i < alike.size(); ++i) {
-    const double most = std::max(std::abs(inside[i].value - alike[i].value),
-                                 std::abs(around[i].value - alike[i].value));
-    sides_.push_back({alike[i].name, alike[i].unit, most});
-    sides_percent_ =
-        std::max(sides_percent_, 100 * most / std::max(std::abs(alike[i].value), 1e-300));
+  const SolvedPath alike = solved(radii_.alike);
+  const SolvedPath inside = solved(radii_.inside);
+  const SolvedPath around = solved(radii_.around);
+  for (const Valued& force : forces_judged(alike.found)) {
+    const auto [value, most] = largest_change(force.name, alike, {&inside, &around});
+    sides_.push_back({force.name, force.unit, most});
+    sides_percent_ = std::max(sides_percent_, 100 * most / std::max(value, 1e-300));
   }
+}
+
+// Of a force where it is judged, which need not be the end of the path.
+SectionInPlace::Change SectionInPlace::largest_change(
+    const std::string& force, const SolvedPath& alike,
+    const std::vector<const SolvedPath*>& others) const {
+  Change change;
+  const auto look_at = [&](double t) {
+    const double here = value_of(alike, force, t);
+    change.of = std::max(change.of, std::abs(here));
+    for (const SolvedPath* other : others)
+      change.most = std::max(change.most, std::abs(value_of(*other, force, t) - here));
+  };
+  if (asked_.accuracy && asked_.accuracy->at == AccuracyAt::every_step) {
+    for (const StepForces& step : alike.path) look_at(step.t);
+  } else {
+    look_at(judged_at(asked_, alike.path, force));
+  }
+  return change;
 }
 
 double SectionInPlace::percent(const std::vector<ErrorEstimate>& errors) const {

@@ -55,6 +55,11 @@ class SectionInPlace {
   void decide(const std::optional<Material>& material, const Where& where, bool dry);
   void measure_sides(const SolveConfig& section, const std::optional<Material>& material,
                      const Where& where);
+  struct Change {
+    double of = 0, most = 0;  // size of the force, and its largest change [N]
+  };
+  Change largest_change(const std::string& force, const SolvedPath& alike,
+                        const std::vector<const SolvedPath*>& others) const;
   double wanted() const { return accuracy_ ? accuracy_->wanted : 1; }  // [%]
   double percent(
       const std::vector<ErrorEstimate>& errors) const;  // largest of a force, sides included

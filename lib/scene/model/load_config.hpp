@@ -104,6 +104,13 @@ struct LoadConfig {
     if (displacement) return displacement->along(axis);
     return std::nullopt;
   }
+  // whether it moves its set, which zeros do not
+  bool imposes_motion() const {
+    if (rotation) return true;
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto one = imposed(axis); one && one->moves()) return true;
+    return false;
+  }
   bool tells(int axis) const {
     return rotation || imposed(axis);
   }  // where the set's nodes go along it

@@ -506,6 +506,9 @@ struct SolveConfig {
              estimate != EstimateBy::automatic)
       found.push_back({"truncation", "no estimate by refinement", "estimate: refinement or auto",
                        "it reports what is left out"});
+    if (!truncation.empty() && indented && std::ranges::any_of(loads, &LoadConfig::imposes_motion))
+      found.push_back({"truncation", "found together with imposed displacements", "none",
+                       "a wider or thicker body would need others to be as much deformed"});
     for (std::size_t i = 0; i < truncation.size(); ++i) {
       const std::string key = "truncation[" + std::to_string(i) + "]";
       if (truncation[i] == Truncation::bottom && mesh && !mesh->bodies.empty())
