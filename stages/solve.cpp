@@ -234,7 +234,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
 
   // The result is kept even if it is less accurate than requested; the exit code shows it.
   const Summaries of_fibres{{"fibre_jump", fibre_jump, "deg"}};
-  const Summaries of_run = with_answers(summary_of(run, end, recording.n_steps()), errors.at_end);
+  const Summaries of_run = with_answers(summary_of(run, end, recording.n_steps()), errors);
   const StageResults all(joined({of_run, results, of_fibres, watch.stability_summary()}),
                          watch.texts());
   try {

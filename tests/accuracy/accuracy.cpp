@@ -173,10 +173,20 @@ TEST_CASE(
   CHECK(number("force_error") == near(0.09));
   CHECK(number("force_of_mesh") == 10);
   CHECK(number("force_limit") == near(9.89));
-  const std::vector<Summary> answers_in = with_answers({{"t", 1, "-"}, {"force", -10, "N"}}, {e});
+  PathErrors errors;
+  errors.at_end = {e};
+  errors.limits["force"].shares = {1.1, 1.02};
+  const std::vector<Summary> answers_in =
+      with_answers({{"t", 1, "-"}, {"force", -10, "N"}}, errors);
   CHECK(answers_in[1].value == near(-9.89));
-  e.limit_answers = false;
-  CHECK(with_answers({{"force", -10, "N"}}, {e})[0].value == -10);
+  // of a force that is judged before the end, the last state has a share of its own
+  errors.at_end[0].t = 0.5;
+  CHECK(with_answers({{"force", 2, "N"}}, errors)[0].value == near(2.04));
+  const std::vector<Summary> judged = summary_of(errors.at_end);
+  CHECK(std::ranges::find(judged, "force_judged", &Summary::name)->value == near(9.89));
+  CHECK(std::ranges::find(judged, "force_judged_of_mesh", &Summary::name)->value == 10);
+  errors.at_end[0].limit_answers = false;
+  CHECK(with_answers({{"force", -10, "N"}}, errors)[0].value == -10);
 }
 
 TEST_CASE("what is estimated tells whether an accuracy is reached, whatever the study promised") {

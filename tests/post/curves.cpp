@@ -135,6 +135,16 @@ TEST_CASE("a force has the column of its error beside it where the solver estima
         Names{"force|", "force_error|force_error"});
   CHECK(named("{quantity: force}", {"force_error", "force_limit_share"}) ==
         Names{"force|", "force_error|force_error", "force_of_mesh|force_limit_share"});
+  CHECK(named("{history: force_left}",
+              {"force_left", "force_left_error", "force_left_limit_share"}) ==
+        Names{"force_left|force_left", "force_left_error|force_left_error",
+              "force_left_of_mesh|force_left_limit_share"});
+  // the travel of an indenter that has a given force, by both of its names
+  const std::vector<std::string> travel{"travel_a", "travel_a_error", "travel_a_limit_share"};
+  CHECK(named("{quantity: u_ind}, {history: travel_a}", travel) ==
+        Names{"u_ind|", "u_ind_error|travel_a_error", "u_ind_of_mesh|travel_a_limit_share",
+              "travel_a|travel_a", "travel_a_error|travel_a_error",
+              "travel_a_of_mesh|travel_a_limit_share"});
   for (const char* name : {"force_error", "force_left_error", "reaction_top_error"})
     CHECK(solution::unit_of(name) == std::string("N"));
   for (const char* name : {"force_limit_share", "force_left_limit_share", "torque_a_limit_share"})

@@ -578,9 +578,9 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
     add("_error", e.limit_answers ? e.limit_bar() : e.total());
     add("_error_cells", e.cells);
     if (e.has_limit) add("_limit", e.limit());
-    if (e.limit_answers) add("_of_mesh", e.of.value);
+    const double answer = e.limit_answers ? e.limit() : e.of.value;
     if (e.t < 1) {
-      add("_judged", e.of.value);
+      add("_judged", answer);
       summary.push_back({e.of.name + "_judged_at", e.t, "-"});
     }
     add("_error_increments", e.increments);
@@ -592,12 +592,13 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
   return summary;
 }
 
-std::vector<Summary> with_answers(std::vector<Summary> numbers,
-                                  const std::vector<ErrorEstimate>& estimates) {
-  for (const ErrorEstimate& e : estimates) {
-    if (!e.limit_answers || e.t < 1) continue;
+std::vector<Summary> with_answers(std::vector<Summary> numbers, const PathErrors& errors) {
+  for (const ErrorEstimate& e : errors.at_end) {
+    if (!e.limit_answers) continue;
+    double share = e.limit_share();
+    if (e.t < 1) share = errors.limits.at(e.of.name).shares.back();
     const auto found = std::ranges::find(numbers, e.of.name, &Summary::name);
-    if (found != numbers.end()) found->value *= e.limit_share();
+    if (found != numbers.end()) found->value *= share;
   }
   return numbers;
 }
@@ -623,3 +624,4 @@ double estimate_seconds(const SolveConfig& config, const std::optional<Material>
 }
 
 }  // namespace langer
+    if (e.limit_answers) add(e.t < 1 ? "_judged_of_mesh" : "_of_mesh", e.of.value);

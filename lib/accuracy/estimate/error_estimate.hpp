@@ -215,9 +215,8 @@ PathErrors estimated(const SolveConfig& config, const std::optional<Material>& m
 std::string in_words(const ErrorEstimate& estimate);
 std::vector<Summary> summary_of(
     const std::vector<ErrorEstimate>& estimates);  // what gather can collect
-// The numbers of a run, with the limit in place of a value where that is the answer.
-std::vector<Summary> with_answers(std::vector<Summary> numbers,
-                                  const std::vector<ErrorEstimate>& estimates);
+// The numbers of the last state, with the limit instead of a value where that is the answer.
+std::vector<Summary> with_answers(std::vector<Summary> numbers, const PathErrors& errors);
 
 // CPU seconds that an estimate by refinement takes, about (solve/forecast.hpp)
 double estimate_seconds(const SolveConfig& config, const std::optional<Material>& material,

@@ -287,10 +287,15 @@ std::string in_words(const ForceUncertainty& force, std::optional<double> cells)
 void report_forces(const Voice& voice, const ParameterKnowledge& known,
                    const std::vector<ForceUncertainty>& forces,
                    const std::vector<ErrorEstimate>& errors) {
-  for (const ForceUncertainty& force : forces) {
+  for (ForceUncertainty force : forces) {
     std::optional<double> cells;
-    for (const ErrorEstimate& error : errors)
-      if (error.of.name == force.name && error.t == 1) cells = error.total();
+    for (const ErrorEstimate& error : errors) {
+      if (error.of.name != force.name || error.t < 1) continue;
+      cells = error.total();
+      if (!error.limit_answers) continue;
+      cells = error.limit_bar();
+      force.value = error.limit();
+    }
     voice.say("{}", in_words(force, cells));
   }
   if (known.left_out.empty()) return;

@@ -186,14 +186,16 @@ std::string estimated_word(const ColumnChoice& c) {
   return "";
 }
 
-bool is_travel(const ColumnChoice& c) {
-  return c.history && c.history->starts_with("travel_") && !c.history->ends_with("_error");
+// A history that the solver wrote together with its estimated error, as of the force on one of
+// several indenters.
+bool has_error(const ColumnChoice& c, const std::vector<std::string>& histories) {
+  return c.history && contains(histories, error_of(*c.history));
 }
 
 // The history with the estimated error of a column; empty if it has none. The travel of the
 // indenter is u_ind, too, where one is controlled by its force.
 std::string error_history(const ColumnChoice& c, const std::vector<std::string>& histories) {
-  if (is_travel(c)) return error_of(*c.history);
+  if (has_error(c, histories)) return error_of(*c.history);
   const std::string word = estimated_word(c);
   if (word == "u_ind") {
     const auto is_of_travel = [](const std::string& history) {
@@ -224,7 +226,7 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
   for (const ColumnChoice& c : columns) {
     out.push_back(c);
     const std::string word = estimated_word(c);
-    if (word.empty() && !is_travel(c)) continue;
+    if (word.empty() && !has_error(c, histories)) continue;
     // Adds a column of a history, if the solver wrote it and no column has its name.
     const auto add = [&](const std::string& history, const std::string& name) {
       if (!contains(histories, history) || contains(names, name)) return;
@@ -236,7 +238,7 @@ std::vector<ColumnChoice> with_errors(const std::vector<ColumnChoice>& columns,
     };
     const std::string error = error_history(c, histories);
     add(error, error_of(column_name(c)));
-    if (!error.empty() && word != "u_ind") add(limit_beside(error), of_mesh(column_name(c)));
+    if (!error.empty()) add(limit_beside(error), of_mesh(column_name(c)));
     if (word == "force") add("force_deviation", column_name(c) + "_deviation");
     const std::string prefix = derivative_prefix(word, c);
     for (const std::string& history : histories)
