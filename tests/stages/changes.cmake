@@ -44,6 +44,12 @@ add_to(${curve} "# one more remark\n")
 expect_pending("after a change of the data" fit/material.h5 report/report.html sensitivity/sensitivity.h5)
 run(0 make -j2 -C ${run})
 
+# as mv, cp -p and unzip leave it
+execute_process(COMMAND sh -c "cp '${curve}' older && echo '# one more' >> older && touch -d 2001-01-01 older && mv older '${curve}'"
+  WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+expect_pending("after an older file took the place of the data" fit/material.h5 report/report.html sensitivity/sensitivity.h5)
+run(0 make -j2 -C ${run})
+
 # a rebuilt program makes nothing again, unless STRICT
 file(MAKE_DIRECTORY ${WORK}/bin)
 file(GLOB programs ${BIN}/langer-*)

@@ -41,6 +41,17 @@ struct TextFile {
   std::string text;
 };
 
+// A comment that changes with the content of a data file. Empty where it cannot be read, which the
+// stage reports.
+std::string content_line(const std::string& path) {
+  try {
+    return fmt::format("# content of {}: {}\n", printable(fs::path(path).filename().string()),
+                       content_of(path));
+  } catch (const Failure&) {
+    return "";
+  }
+}
+
 // Collects the files and the rules of a run, step by step. Errors of all steps are collected, and
 // thrown together by stop_if_wrong().
 class Planning {
@@ -62,9 +73,13 @@ class Planning {
     const std::string here = (folder_ / step.folder).string();
     const std::string config = step.folder + "/" + step.stage->name + ".yaml";
     Rule rule{step.output(), {config}, std::string("langer-") + step.stage->name, config};
+    std::string contents;
     for (const StepInput& input : step.inputs) {
       std::string path = input.path;
-      if (!input.made) path = given_file(step, input);
+      if (!input.made) {
+        path = given_file(step, input);
+        contents += content_line(input.path);
+      }
       rule.prerequisites.push_back(path);
       rule.arguments += fmt::format(" --{} {}", input.port, path);
     }
@@ -77,16 +92,17 @@ class Planning {
       for (const Effective::File& file : effective.files) {
         require_file(file.path, file.place, file.key);
         rule.prerequisites.push_back(from_run(file.path, file.place, file.key));
+        contents += content_line(file.path);
       }
       if (effective.check_data) data_checks_.push_back(effective.check_data);
       SceneNames& names = names_[rule.target] = effective.names;
       for (const StepInput& input : step.inputs) add_names(step, input, names);
       if (const std::vector<Error> unknown = unknown_names(names); !unknown.empty())
         throw Failure(Exit::config, unknown);
-      // The config contains the command. So a step with another input file has another config, and
-      // make repeats it.
-      files.push_back(
-          {config, fmt::format("# {} {}\n{}", rule.program, rule.arguments, effective.text)});
+      // The config contains the command and the contents of data files. So a step with another
+      // input file has another config, and make repeats it, also where the file is an older one.
+      files.push_back({config, fmt::format("# {} {}\n{}{}", rule.program, rule.arguments, contents,
+                                           effective.text)});
     });
     // Snakemake reserves as many cores.
     rule.threads = threads_of(step.config);
