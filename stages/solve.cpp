@@ -17,6 +17,7 @@
 #include "scene/model/scene_bodies.hpp"
 #include "scene/model/solve_config_io.hpp"
 #include "scene/run/dry_run.hpp"
+#include "scene/run/loaded_area.hpp"
 #include "scene/run/mirrored_solution.hpp"
 #include "scene/run/run_words.hpp"
 #include "scene/run/step_record.hpp"
@@ -181,6 +182,7 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
 
   check_vibration(config, run, job.where);
   const double fibre_jump = report_scene(job.voice(), run);
+  for (const std::string& line : loads_on_other_areas(config, run.mesh)) job.warn("{}", line);
   std::string loose = held_by_contact(job.voice(), run, job.where);
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);

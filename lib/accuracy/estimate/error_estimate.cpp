@@ -24,6 +24,7 @@
 #include "scene/run/body_mesh.hpp"
 #include "scene/run/dry_run.hpp"
 #include "scene/run/holes.hpp"
+#include "scene/run/loaded_area.hpp"
 
 namespace langer {
 
@@ -234,7 +235,6 @@ std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const 
 
 namespace {
 
-// What an estimate by refinement has solved.
 // Whether the config gives a force, and the travel of the indenter is the result.
 bool is_given(const SolveConfig& config, const std::string& name) {
   return std::ranges::any_of(config.contacts, [&](const auto& one) {
@@ -244,6 +244,7 @@ bool is_given(const SolveConfig& config, const std::string& name) {
   });
 }
 
+// What an estimate by refinement has solved.
 struct Solutions {
   Family family, same_cells;  // hex8; the cells of the run, where these are others
   std::vector<SolvedPath>
@@ -368,17 +369,61 @@ void mark_asked(const SolveConfig& config, const Find& where, const std::vector<
             known.empty() ? "a quantity of this scene; it has none" : "one of " + known, hint});
 }
 
+namespace {
+
+// A load on a part of a side acts on whole facets. Coarser meshes whose lines do not meet its edges
+// solve another scene. With an accuracy, lines are put there.
+std::string other_areas(const SolveConfig& config, const Refinements& refined, const Find& where) {
+  constexpr double alike = 0.05;
+  if (!config.mesh || in_family(config)) return "";
+  const auto is_on_a_part = [&](const LoadConfig& load) {
+    return load.on_surface() && config.mesh->sets.contains(load.on);
+  };
+  if (std::ranges::none_of(config.loads, is_on_a_part)) return "";
+  const Mesh own = body_mesh(config, "", where);
+  for (const std::vector<SolveConfig>& scenes : {refined.hex8, refined.hex27})
+    for (const SolveConfig& scene : scenes) {
+      const Mesh mesh = body_mesh(scene, "", where);
+      for (const LoadConfig& load : config.loads) {
+        if (!is_on_a_part(load)) continue;
+        const double area = area_of(own, load.on);
+        const double there = area_of(mesh, load.on);
+        if (area == 0 || std::abs(there / area - 1) < alike) continue;
+        return fmt::format(
+            "the errors are not known: the set \"{}\" of a load has {:.4g} mm^2, and {:.4g} mm^2 on coarser cells; "
+            "accuracy puts lines of the grid along the edges of boxes",
+            load.on, area, there);
+      }
+    }
+  return "";
+}
+
+}  // namespace
+
 PathErrors estimate_along(const SolveConfig& config, const std::optional<Material>& material,
                           const Find& where, const SolvedPath& itself, double residual,
                           const EstimateListener& listener) {
   const Refinements refined = refinements(config, where);
+  if (std::string why = other_areas(config, refined, where); !why.empty()) {
+    PathErrors nothing;
+    nothing.not_known.push_back(std::move(why));
+    return nothing;
+  }
   int begun = 0;
   const Solutions all = solve_all(refined, itself, [&](const SolveConfig& scene) {
     ++begun;
-    return solved_path(scene, material, where, [&](const Run& run) {
+    const auto shown = [&](const Run& run) {
       if (listener) return listener(run, begun, refined.n_scenes());
       return RunListener{};
-    });
+    };
+    try {
+      return solved_path(scene, material, where, shown);
+    } catch (const Failure& failure) {
+      if (failure.code() != Exit::config) throw;
+      // as a round set that has no whole facet there
+      throw Failure(Exit::not_converged,
+                    Error{{}, "", fmt::format("on coarser cells, {}", failure.what()), "", ""});
+    }
   });
   PathErrors out;
   // no study stands for these scenes: their meshes show the order themselves
@@ -388,6 +433,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const bool rubs = std::ranges::any_of(
       config.touching, [](const auto& contact) { return contact.second.friction > 0; });
   const bool section = config.mesh && is_section(config.mesh->geometry);
+  const double on_layer = on_thin_layer(config);
   const double beside_hole = beside_holes(config);
   const bool clamped = is_clamped(config);
   const double beside_rim = std::max(beside_rims(config, clamped), under_holes(config));
@@ -443,7 +489,6 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       e.scatter = std::max({e.scatter, e.by_single_nodes,
                             0.5 * round_an_edge(config, touching, section) * std::abs(q.value),
                             0.5 * shear_on_section(config, touching, section) * std::abs(q.value),
-  const double on_layer = on_thin_layer(config);
                             0.5 * beside_hole * std::abs(q.value)});
       if (refined.edge_unresolved)  // without a sign: three such meshes tell none of it
         e.scatter += 0.5 * std::max(0.0, shear_at_edge(config, touching) * std::abs(q.value) -
@@ -583,6 +628,7 @@ std::vector<Summary> summary_of(const std::vector<ErrorEstimate>& estimates) {
       add("_judged", answer);
       summary.push_back({e.of.name + "_judged_at", e.t, "-"});
     }
+    if (e.limit_answers) add(e.t < 1 ? "_judged_of_mesh" : "_of_mesh", e.of.value);
     add("_error_increments", e.increments);
     add("_error_scatter", e.scatter);
     add("_error_solver", e.solver);
@@ -624,4 +670,3 @@ double estimate_seconds(const SolveConfig& config, const std::optional<Material>
 }
 
 }  // namespace langer
-    if (e.limit_answers) add(e.t < 1 ? "_judged_of_mesh" : "_of_mesh", e.of.value);
