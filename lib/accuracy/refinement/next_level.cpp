@@ -27,9 +27,10 @@ Geometry with_cells(const Geometry& written, double factor) {
 double percent_with(ErrorEstimate e, double edge, double step, double order) {
   e.cells *= std::pow(edge, order);
   e.increments *= step * step;
-  const bool by_single_nodes = e.scatter <= e.by_single_nodes;
+  const bool decided_by_single_nodes = e.scatter <= e.by_single_nodes;
   e.by_single_nodes *= std::pow(edge, 3);
-  e.scatter = by_single_nodes ? e.by_single_nodes : e.scatter * edge * edge;
+  e.scatter *= edge * edge;
+  if (decided_by_single_nodes) e.scatter = e.by_single_nodes;
   return e.percent();
 }
 

@@ -176,9 +176,9 @@ void SectionInPlace::decide(const std::optional<Material>& material, const Where
   if (!section) {
     const bool given = std::ranges::any_of(
         asked_.contacts, [](const auto& contact) { return contact.second.control.has_value(); });
-    return voice_.say("reduce: {}; the body is solved as it is",
-                      given ? "an indenter with a given force"
-                            : "no indented_block here whose scene is the same around an axis");
+    std::string why = "no indented_block here whose scene is the same around an axis";
+    if (given) why = "an indenter with a given force";
+    return voice_.say("reduce: {}; the body is solved as it is", why);
   }
   if (dry) return voice_.say("reduce: a section may take the block's place (not with --dry-run)");
   if (accuracy_) {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/mesh/facets.hpp"
+#include "mechanics/element/surface.hpp"
 
 namespace langer {
 
 namespace {
 
-constexpr double enough = 0.05;  // of the area: less is no matter
+constexpr double enough = 0.05;  // share of the area; smaller differences do not matter
 
 // 0, 1, 2 for a side that is normal to x, y, z; -1 for another name
 int axis_of_side(const std::string& side) {
@@ -47,7 +47,8 @@ double part_of_side(const Box& block, int axis, const InCylinder& within) {
 }
 
 double described_area(const MeshConfig& mesh, const SetConfig& set) {
-  const int axis = set.of ? axis_of_side(*set.of) : -1;
+  if (!set.of) return 0;
+  const int axis = axis_of_side(*set.of);
   if (axis < 0) return 0;
   const Box block = box(mesh.geometry);
   if (const auto* within = std::get_if<InBox>(&set.within))
@@ -66,15 +67,7 @@ bool is_block(const Geometry& geometry) {
 double area_of(const Mesh& mesh, const std::string& set) {
   const auto facets = mesh.facet_sets.find(set);
   if (facets == mesh.facet_sets.end()) return 0;
-  double area = 0;
-  for (const Facet& facet : facets->second)
-    for (const auto& quad : facet_quads(mesh, facet)) {
-      const auto x = [&](std::size_t corner) {
-        return mesh.X[static_cast<std::size_t>(quad[corner])];
-      };
-      area += 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
-    }
-  return area;
+  return nodal_areas(mesh, facets->second).sum();
 }
 
 std::vector<std::string> loads_on_other_areas(const SolveConfig& config, const Mesh& mesh) {
