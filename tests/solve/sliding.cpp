@@ -155,3 +155,21 @@ TEST_CASE(
     CHECK(std::abs(off) < allowed);
   }
 }
+
+TEST_CASE("friction never gives energy back, in few steps of pressing and lifting") {
+  for (const double step : {0.25, 0.125, 0.0625}) {
+    test::Indentation scene;
+    scene.nx = scene.nz = 16, scene.ny = 4, scene.h = 0.4, scene.step = step;
+    scene.motion = {{0.5, Vec3(0, -0.5, 0)}, {1, Vec3(0, 0, 0)}};
+    const EnergyOf energy(scene);
+    REQUIRE(scene.run(test::table1(60, 1e-4)).path.complete);
+    double last = 0, at_turn = 0;
+    for (const PathSums& s : energy.path->sums()) {
+      CHECK(s.dissipated >= last);
+      last = s.dissipated;
+      if (s.path <= 0.5 + 1e-9) at_turn = s.dissipated;
+    }
+    MESSAGE("step " << step << ": dissipated at the turn " << at_turn << ", at the end " << last);
+    CHECK(at_turn > 0);
+  }
+}

@@ -1,6 +1,7 @@
 #include "results/post/energy_columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -95,6 +96,15 @@ EnergyPath::EnergyPath(const Mesh& mesh, std::vector<RigidContact> contacts,
 
 namespace {
 
+// What friction takes at a node while it slips, from -r . slip with the reactions r of both ends of
+// the step. Friction opposes slip, so a negative one is that of a node that stuck first: there the
+// reaction turned round before the node slipped, and only the other one acts.
+double taken_by_friction(double begin, double end) {
+  if (begin < 0) begin = end;
+  if (end < 0) end = begin;
+  return std::max(0.5 * (begin + end), 0.0);
+}
+
 // Adds the forces of reactions on both sides of a surface.
 void add_nodal(const std::vector<MortarNode>& nodes, const VecX& x, const std::vector<Vec3>& r,
                std::vector<Vec3>& to) {
@@ -123,16 +133,19 @@ void EnergyPath::add_surfaces(const State& now, Interval& step, Ends& from_conta
       add_nodal(nodes[s], x, now.bonds[k], from_contact.end);
       step.pull = std::max(step.pull, pull_force(nodes[s], now.r[k], now.bonds[k]));
     }
+    // -r . slip of each candidate, at the beginning and at the end
+    std::vector<std::array<double, 2>> work_of_slip(now.r[k].size(), {0, 0});
     for (const MortarNode& node : last_nodes_[s]) {
-      const Vec3& r = last_.r[k][static_cast<std::size_t>(node.candidate)];
-      step.dissipated -= 0.5 * r.dot(node.slip(moved));
+      const auto i = static_cast<std::size_t>(node.candidate);
+      work_of_slip[i][0] = -last_.r[k][i].dot(node.slip(moved));
     }
     for (const MortarNode& node : nodes[s]) {
       const auto i = static_cast<std::size_t>(node.candidate);
-      step.dissipated -= 0.5 * now.r[k][i].dot(node.slip(moved));
+      work_of_slip[i][1] = -now.r[k][i].dot(node.slip(moved));
       const bool touched = !last_.r[k][i].isZero(0) && !now.r[k][i].isZero(0);
       if (touched) slips_[k][i] += node.slip(moved).norm();
     }
+    for (const auto& [begin, end] : work_of_slip) step.dissipated += taken_by_friction(begin, end);
   }
   last_nodes_ = std::move(nodes);
 }
@@ -197,12 +210,13 @@ void EnergyPath::add_contact(std::size_t k, const State& now, Interval& step, En
       v = 0.5 * angle / std::sin(0.5 * angle) *
           (v + turned_by(contact.rotation->axis.along, -0.5 * angle, v));
     }
-    for (const auto& [r, x] :
-         {std::pair{r0, Vec3(x0 - c0)}, std::pair{r1, Vec3(mesh_.X[node] + now.u[node] - c)}}) {
-      if (r.isZero(0)) continue;
+    const auto work_of_slip = [&](const Vec3& r, const Vec3& x) {
+      if (r.isZero(0)) return 0.0;
       const Vec3 n = shape_at(contact.shape, x).normal;
-      step.dissipated -= 0.5 * r.dot(v - v.dot(n) * n);
-    }
+      return -r.dot(v - v.dot(n) * n);
+    };
+    step.dissipated += taken_by_friction(work_of_slip(r0, x0 - c0),
+                                         work_of_slip(r1, mesh_.X[node] + now.u[node] - c));
     // Slip counts only with contact at both ends.
     if (r0.isZero(0) || r1.isZero(0)) continue;
     const Vec3 n = shape_at(contact.shape, Vec3(mesh_.X[node] + now.u[node] - c)).normal;

@@ -5,7 +5,9 @@
 //               integrated by a parabola through each three neighbouring states of a straight piece
 //               of the path, because trapezoids have an error of the step squared.
 //   dissipated  sum over steps and contact nodes of -r_t . x_t [N mm]: r_t the mean tangential
-//               force of both ends of the step, x_t the slip in it. For an indenter that turns, the
+//               force of both ends of the step, x_t the slip in it. It never falls: a force that
+//               would drive the slip is that of a node that stuck first, and the force of the other
+//               end counts instead. For an indenter that turns, the
 //               slip is seen from half of its angle and is as long as the arc. Of deformable
 //               surfaces the slip is that of the mortar nodes (mortar/surface_contact.hpp).
 //   balance     (work - stored - dissipated) over the largest work so far: the error of the
