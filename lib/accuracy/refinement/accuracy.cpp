@@ -65,9 +65,7 @@ void add_ends(const MeshConfig& mesh, const SetConfig& set,
   const auto* part = std::get_if<InBox>(&set.within);
   if (!part) return;
   for (std::size_t i = 0; i < n.size(); ++i) {
-    const std::string axis(1, "xyz"[i]);
-    const bool across = set.of && (set.of->starts_with(axis) ||
-                                   (axis == "y" && (*set.of == "top" || *set.of == "bottom")));
+    const bool across = set.of && axis_of_side(*set.of) == static_cast<int>(i);
     if (across || part->to[i] - part->from[i] < 0.5 * size[i] / n[i]) continue;
     breaks[i].push_back(part->from[i]);
     breaks[i].push_back(part->to[i]);

@@ -14,4 +14,12 @@ bool has_nothing_below(const SolveConfig& config) {
   });
 }
 
+int axis_of_side(const std::string& side) {
+  if (side == "top" || side == "bottom") return 1;
+  for (const char* end : {"_min", "_max"})
+    for (int axis = 0; axis < 3; ++axis)
+      if (side == std::string(1, "xyz"[axis]) + end) return axis;
+  return -1;
+}
+
 }  // namespace langer

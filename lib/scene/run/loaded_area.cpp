@@ -7,19 +7,13 @@
 #include <numbers>
 
 #include "mechanics/element/surface.hpp"
+#include "scene/model/supports.hpp"
 
 namespace langer {
 
 namespace {
 
 constexpr double enough = 0.05;  // share of the area; smaller differences do not matter
-
-// 0, 1, 2 for a side that is normal to x, y, z; -1 for another name
-int axis_of_side(const std::string& side) {
-  if (side == "top" || side == "bottom") return 1;
-  if (side.size() == 5 && (side.ends_with("_min") || side.ends_with("_max"))) return side[0] - 'x';
-  return -1;
-}
 
 // What a box cuts out of a side [mm^2].
 double part_of_side(const Box& block, int axis, const InBox& within) {
