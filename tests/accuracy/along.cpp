@@ -163,7 +163,10 @@ TEST_CASE("of an indenter with a given force it is the travel that is changed") 
   contact.control.emplace();
   contact.control->force = HistoryConfig{force};
   std::map<std::string, double> percent;
-  for (const ErrorEstimate& e : estimate_of(config).at_end)
+  const PathErrors errors = estimate_of(config);
+  CHECK(!errors.along.contains("force"));  // a force that is given has no error
+  for (const ErrorEstimate& e : errors.at_end) CHECK(e.of.name != "force");
+  for (const ErrorEstimate& e : errors.at_end)
     for (const ErrorEstimate::Part& part : e.left_out)
       percent[e.of.name] = e.in_percent(part.value);
   REQUIRE(percent.size() == 1);

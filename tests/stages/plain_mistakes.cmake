@@ -103,7 +103,8 @@ contacts:
 estimate: refinement
 path: {largest: 0.2}
 ")
-run(0 ${BIN}/langer-solve pushed.yaml -o pushed.h5 --quiet)
+run(0 ${BIN}/langer-solve pushed.yaml -o pushed.h5)
+expect_said("force 0.1 N, as given")
 file(WRITE ${project}/post.yaml "columns:
   - {quantity: u_ind, zero_at: t=0.111111}
   - {history: travel_ball, name: depth}

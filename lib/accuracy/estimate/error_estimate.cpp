@@ -233,9 +233,6 @@ std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const 
   return found;
 }
 
-namespace {
-
-// Whether the config gives a force, and the travel of the indenter is the result.
 bool is_given(const SolveConfig& config, const std::string& name) {
   return std::ranges::any_of(config.contacts, [&](const auto& one) {
     const auto& [contact, of] = one;
@@ -243,6 +240,8 @@ bool is_given(const SolveConfig& config, const std::string& name) {
            (name == "force_" + contact || (name == "force" && config.contacts.size() == 1));
   });
 }
+
+namespace {
 
 // What an estimate by refinement has solved.
 struct Solutions {
@@ -501,6 +500,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   if (!all.other.empty())
     increments.of = {refined.edge_unresolved ? meshes[1] : meshes.back(), all.other[0]};
   for (const Valued& q : itself.found) {
+    if (is_given(config, q.name)) continue;
     if (std::string why = over_an_edge(config, q.name); !why.empty()) {
       out.not_known.push_back(std::move(why));
       continue;
@@ -540,8 +540,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       }
     }
     if (q.name == "pull_off") estimate->increments -= pull_between_steps(itself.path);
-    if (q.of_contact() && !is_given(config, q.name))
-      estimate->left_out = all.left_out(estimate->of, estimate->t);
+    if (q.of_contact()) estimate->left_out = all.left_out(estimate->of, estimate->t);
     out.at_end.push_back(*estimate);
   }
   mark_asked(config, where, itself.found, out.at_end);

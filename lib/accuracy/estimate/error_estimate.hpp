@@ -144,6 +144,10 @@ struct ErrorEstimate {
 
 double order_of_force(const SolveConfig& config);  // p of its error
 
+// Whether the config gives a force, and the travel of the indenter is the result. Such a force has
+// no error.
+bool is_given(const SolveConfig& config, const std::string& name);
+
 // Whether an accuracy needs the value on the mesh itself, and not its limit alone.
 bool needs_the_mesh(const SolveConfig& config);
 

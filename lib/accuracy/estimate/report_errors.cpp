@@ -123,7 +123,8 @@ void report_results(const Voice& voice, const SolveConfig& config, const Run& ru
     if (!one.of_force() || has_estimate(estimates, one.name)) continue;
     if (any && config.in_motion()) continue;  // the force of an impact has been named
     if (one.name == "pull_off") continue;     // that of the end, and not the greatest
-    voice.say("{} {:.5g} {}, no error bar", one.name, one.value, one.unit);
+    const char* bar = is_given(config, one.name) ? "as given" : "no error bar";
+    voice.say("{} {:.5g} {}, {}", one.name, one.value, one.unit, bar);
     any = true;
   }
   if (any) return;
