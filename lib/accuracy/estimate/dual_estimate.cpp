@@ -9,6 +9,7 @@
 #include "accuracy/estimate/cell_parts.hpp"
 #include "accuracy/estimate/energy_error.hpp"
 #include "accuracy/estimate/least_scatter.hpp"
+#include "mechanics/mesh/facets.hpp"
 #include "mechanics/mesh/hanging.hpp"
 #include "mechanics/solve/state_tangent.hpp"
 #include "scene/run/step_forces.hpp"
@@ -57,6 +58,26 @@ std::map<std::array<double, 3>, int> nodes_by_place(const Mesh& mesh) {
   return out;
 }
 
+// Whether a load ends at the only node of a set: beside it are loaded facets and others of the same
+// side. Stresses are singular there.
+bool is_at_end_of_load(const SolveConfig& config, const Mesh& mesh, const std::string& point) {
+  const int node = mesh.node_sets.at(point)[0];
+  const auto around = [&](const std::string& set) {
+    const auto facets = mesh.facet_sets.find(set);
+    if (facets == mesh.facet_sets.end()) return std::ptrdiff_t{0};
+    return std::ranges::count_if(facets->second, [&](const Facet& facet) {
+      return std::ranges::count(facet_nodes(mesh, facet), node) > 0;
+    });
+  };
+  return std::ranges::any_of(config.loads, [&](const LoadConfig& load) {
+    if (!load.on_surface() || !config.mesh) return false;
+    const auto set = config.mesh->sets.find(load.on);
+    if (set == config.mesh->sets.end() || !set->second.of) return false;
+    const auto loaded = around(load.on);
+    return loaded > 0 && loaded < around(*set->second.of);
+  });
+}
+
 // A quantity whose error is wanted, and the load or displacement of size 1 whose answer is its dual
 // solution.
 struct Asked {
@@ -103,8 +124,8 @@ class Questions {
     return asked;
   }
 
-  // The set moves by 1 along its reaction. Nodes that symmetry removed are not moved; the caller
-  // corrects for them.
+  // The set moves by 1 along its reaction. Of nodes that symmetry removed, those that it left move
+  // instead if there are no others; the caller corrects for what symmetry moves with them.
   std::optional<Asked> of_set(Asked asked, const std::string& set) const {
     Vec3 reaction = Vec3::Zero();
     for (int n : run_.mesh.node_sets.at(set))
@@ -113,15 +134,17 @@ class Questions {
     const Dofs& dofs = run_.body.dofs();
     asked.by.prescribed = VecX::Zero(dofs.n);
     asked.of_set = true;
-    for (int n : run_.mesh.node_sets.at(set)) {
-      const auto found = place_.find(key(n));
-      if (found == place_.end()) continue;
+    const std::vector<int>& nodes = run_.mesh.node_sets.at(set);
+    const bool is_left = std::ranges::any_of(nodes, [&](int n) { return place_.contains(key(n)); });
+    for (int n : nodes) {
+      if (is_left && !place_.contains(key(n))) continue;
+      const std::optional<Image> image = in_part(n);
+      if (!image) continue;
+      const Vec3 move = image->T.transpose() * reaction.normalized();
       for (int j = 0; j < 3; ++j)
-        if (dofs.equation[3 * found->second + j] < 0)
-          asked.by.prescribed[3 * found->second + j] = reaction.normalized()[j];
+        if (dofs.equation[3 * image->of + j] < 0) asked.by.prescribed[3 * image->of + j] = move[j];
     }
-    if (asked.by.prescribed.isZero(0))
-      return std::nullopt;  // the part that symmetry leaves has it as an image alone
+    if (asked.by.prescribed.isZero(0)) return std::nullopt;
     return asked;
   }
 
@@ -130,21 +153,30 @@ class Questions {
   std::optional<Asked> of_point(Asked asked, const std::string& point) const {
     const int n = run_.mesh.node_sets.at(point)[0];
     const Vec3 u = last_.u[static_cast<std::size_t>(n)];
-    const auto found = place_.find(key(n));
-    if (!(u.norm() > 0) || found == place_.end()) return std::nullopt;
+    const std::optional<Image> image = in_part(n);
+    if (!(u.norm() > 0) || !image) return std::nullopt;
     const Dofs& dofs = run_.body.dofs();
     asked.by.f = VecX::Zero(dofs.n);
     const auto act = [&](int node, double share) {
-      Vec3 force = -share * u.normalized();
+      Vec3 force = -share * (image->T.transpose() * u.normalized());
       if (!dofs.tie.empty()) force = dofs.tie[static_cast<std::size_t>(node)].T.transpose() * force;
       asked.by.f.segment<3>(3 * dofs.node(node)) += force;
     };
-    if (const HangingNode* hangs = hanging_at(run_.reduction.mesh().hanging, found->second))
+    if (const HangingNode* hangs = hanging_at(run_.reduction.mesh().hanging, image->of))
       for (int node : hangs->of) act(node, 0.25);
     else
-      act(found->second, 1);
+      act(image->of, 1);
     asked.sign = -1;
     return asked;
+  }
+
+  // The node of the part with which a node of the whole body moves.
+  std::optional<Image> in_part(int n) const {
+    if (const auto found = place_.find(key(n)); found != place_.end())
+      return Image{found->second, Mat3::Identity()};
+    if (const ReducedScene* part = run_.reduction.part())
+      return part->node_images()[static_cast<std::size_t>(n)];
+    return std::nullopt;
   }
 
   std::array<double, 3> key(int n) const {
@@ -198,6 +230,7 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
   std::vector<DualSolution> duals;
   bool none = true;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (is_given(config, found[i].name)) continue;
     auto question = questions.of(i, found[i]);
     if (!question) continue;
     none = false;
@@ -240,7 +273,11 @@ PathErrors dual_errors(const SolveConfig& config, Run& run, const StepRecord& la
     if (q.of_force()) e.order = order_of_force(config);
     double scatter = of_others;
     if (quadratic) scatter = of_quadratic;
-    if (e.order < 2) scatter = of_clamped;
+    const std::string displacement = "displacement_";
+    const bool at_end_of_load =
+        q.name.starts_with(displacement) &&
+        is_at_end_of_load(config, run.mesh, q.name.substr(displacement.size()));
+    if (e.order < 2 || at_end_of_load) scatter = of_clamped;
     e.scatter = scatter * size;
     const double smooth = e.total();
     if (!asked[k].of_set && q.of_force())  // smooth fields do not know that nodes touch one by one
