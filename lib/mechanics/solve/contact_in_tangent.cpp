@@ -13,6 +13,9 @@ namespace langer {
 namespace {
 
 constexpr int left_to_gmres = 4;  // candidates that do something else than in the factor
+// Answers in a row of which none lets fewer candidates change than those before. A new
+// linearisation of the body helps more then.
+constexpr int goes_in_circles = 3;
 
 }  // namespace
 
@@ -308,6 +311,9 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   std::optional<Answer> answer;
   int solutions = 0;
   bool factored = false;
+  bool settled = false;
+  int fewest = static_cast<int>(candidates_.size()) + 1;
+  int since_fewest = 0;
   for (int step = 0; step < 20; ++step) {
     const auto differ =
         std::count_if(candidates_.begin(), candidates_.end(),
@@ -331,9 +337,15 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
       continue;
     }
     answer = answer_of(*solved, state);
-    if (changes(*solved) == 0) break;
+    const int changed = changes(*solved);
+    settled = changed == 0;
+    since_fewest = changed < fewest ? 0 : since_fewest + 1;
+    fewest = std::min(fewest, changed);
+    if (settled || since_fewest == goes_in_circles) break;
   }
-  if (answer) answer->solutions = solutions;
+  if (!answer) return std::nullopt;
+  answer->solutions = solutions;
+  answer->settled = settled;
   return answer;
 }
 

@@ -42,6 +42,7 @@ class ContactInTangent {
     VecX move;    // of the free rows [mm]
     Reactions r;  // after the movement, in the frames before it
     int solutions = 0;
+    bool settled = true;  // no candidate would do something else after it
   };
   using Factorize = std::function<bool(const std::vector<double>& values)>;
   // Nothing where the system is singular. factorize: into `linear`; how often, `factors` tells.

@@ -97,6 +97,7 @@ std::optional<VecX> ContactStep::solve_with_contact(const VecX& rhs) {
       answer = contact.solve_again(state, rhs, factors_.factor.linear());
     } else {
       answer = contact.solve(state, body_.K(), rhs, factors_.factor.linear(), factorize);
+      if (answer && factors_.gives_up(answer->settled)) return std::nullopt;
     }
   }
   state_.cost.contact -= state_.cost.factor - factor_before;

@@ -91,6 +91,12 @@ void FactorCache::where_unstable(WhereUnstable what) {
     serves = of_accepted = false;
   }
   where_unstable_ = what;
+  unsettled_ = 0;
+}
+
+bool FactorCache::gives_up(bool settled) {
+  if (!settled) ++unsettled_;
+  return where_unstable_ == WhereUnstable::contact_in_tangent && unsettled_ == 2;
 }
 
 bool FactorCache::factorize_or_stop() {

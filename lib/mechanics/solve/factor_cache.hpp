@@ -30,7 +30,10 @@ class FactorCache {
   bool may_go_into_tangent() const;
   void where_unstable(WhereUnstable what);
   bool stopped() const { return stopped_; }  // K was not positive definite
-  bool factorize_or_stop();                  // K of the trial; false where it is not usable
+  // Whether contact in the tangent of an unstable body had best be left to the springs: two of its
+  // corrections did not settle what the candidates do.
+  bool gives_up(bool settled);
+  bool factorize_or_stop();  // K of the trial; false where it is not usable
   // Factorizes the tangent of the accepted state, right after accept() or restore(); false where it
   // is singular. The next increment begins with it where it is positive definite and contact is
   // condensed.
@@ -68,6 +71,7 @@ class FactorCache {
   bool bodies_condensed_ = false;
   WhereUnstable where_unstable_ = WhereUnstable::springs;
   bool stopped_ = false;
+  int unsettled_ = 0;                       // corrections since where_unstable()
   std::unique_ptr<TangentFactor> waiting_;  // of contact in the tangent, or condensed, in its place
 };
 
