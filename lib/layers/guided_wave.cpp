@@ -15,6 +15,10 @@ using Complex = std::complex<double>;
 
 constexpr double order_of_lines = 4;
 
+// Waves so much slower than body waves of a half-space are told from them. Those between reach
+// hundreds of wavelengths deep.
+constexpr double off_body_waves = 1e-6;
+
 // Speeds of the shear waves of a layer along the surface and through the depth [mm/s].
 struct ShearSpeeds {
   double slowest = 0, fastest = 0;
@@ -195,6 +199,25 @@ Found find_mode(const Search& search, int m, double low, double high) {
   return found;
 }
 
+// The largest x up to `top` at which no body waves travel in the half-space, less what cannot be
+// told from them. In anisotropic layers they may begin below the speed of those that travel along
+// the surface.
+double below_body_waves(const Search& search, double bottom, double top) {
+  const auto travels = [&](double x) {
+    search.count(x);
+    return search.chain.modes_of_half_space() > 0;
+  };
+  if (travels(top)) {
+    double none = bottom;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (none + top);
+      (travels(middle) ? top : none) = middle;
+    }
+    top = none;
+  }
+  return top - 2 * off_body_waves * std::abs(top);
+}
+
 // All modes up to `most` that lie below x = top, slowest first.
 std::vector<Found> find_modes(const Search& search, double bottom, double top, int most) {
   std::vector<Found> modes;
@@ -251,6 +274,9 @@ std::optional<Complex> damped(const LayerStack& stack, double angle, double freq
   }
   return std::nullopt;
 }
+
+constexpr const char* it_leaks =
+    "the wave is faster than shear waves of the half-space and leaks into it";
 
 GuidedWave none(std::string reason) {
   GuidedWave wave;
@@ -311,11 +337,12 @@ GuidedWave guided_wave(const LayerStack& stack, const WaveQuery& query) {
     if (!leaks && search.count(top) == 0)
       return none("no wave of this frequency travels: it is cut off");
   }
+  if (leaks) top = below_body_waves(search, bottom, top);
   int most = asked.modes;
   if (asked.mode == WaveMode::slowest || (leaks && stack.layers.size() == 1)) most = 1;
   const std::vector<Found> all = find_modes(search, bottom, top, most);
   if (all.empty() && leaks) {
-    return none("the wave is faster than shear waves of the half-space and leaks into it");
+    return none(it_leaks);
   }
   if (all.empty()) return none("no mode was found");
   std::size_t chosen = 0;
@@ -337,6 +364,8 @@ GuidedWave guided_wave(const LayerStack& stack, const WaveQuery& query) {
     double high = x + 0.02 * std::abs(x);
     for (int i = 0; i < 8 && again.count(low) >= wave.mode; ++i) low -= 0.1 * std::abs(x);
     for (int i = 0; i < 8 && again.count(high) < wave.mode; ++i) high += 0.1 * std::abs(x);
+    if (leaks) high = std::min(high, below_body_waves(again, bottom, high));
+    if (leaks && again.count(high) < wave.mode) return none(it_leaks);
     on[level] = find_mode(again, wave.mode, low, high);
     if (!on[level].exists) return none("the mode is lost on shorter lines");
     mesh = own;

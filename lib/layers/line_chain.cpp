@@ -223,6 +223,7 @@ void LineChain<Number>::eliminate(Number k, double w2, bool keep) {
     below = deep.stiffness;
     below_modes = deep.modes;
   }
+  modes_of_half_space_ = below_modes;
   for (std::size_t i = 0; i < mesh_.lines.size(); ++i) {
     const DepthLine& line = mesh_.lines[i];
     const bool first_of_layer = i == 0 || mesh_.lines[i - 1].layer != line.layer;

@@ -55,6 +55,8 @@ class LineChain {
   void eliminate(Number k, double w2, bool keep = false);
   const Mat& surface() const { return surface_; }
   int modes_below() const { return modes_below_; }  // of real moduli
+  // Those of the half-space alone, held at its upper face: 0 as long as no body waves travel in it.
+  int modes_of_half_space() const { return modes_of_half_space_; }
 
   // Forms of the whole motion u that has the surface motion v, after eliminate(keep).
   struct Forms {
@@ -87,6 +89,7 @@ class LineChain {
   Number k_ = 0;
   Mat surface_;
   int modes_below_ = 0;
+  int modes_of_half_space_ = 0;
   double w2_ = 0;
   std::vector<Part> parts_;
 };

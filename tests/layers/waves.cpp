@@ -205,6 +205,20 @@ TEST_CASE("surface tension speeds up short waves as the capillary Rayleigh equat
   CHECK(wave.speed == near(std::sqrt(low * 0.04 / density), 1e-6));
 }
 
+TEST_CASE("body waves of a stretched half-space are no waves of the stiff layer on it") {
+  for (const Dilatation dilatation : {Dilatation::incompressible, Dilatation::compressible}) {
+    const LayerStack body{{stretched(fibrous(), 1.15, 1, 1.5, dilatation),
+                           stretched(neo_hooke(0.002), 1.15, 1, infinite, dilatation)}};
+    for (const double degrees : {0.0, 10.0, 20.0, 30.0, 45.0, 90.0}) {
+      CAPTURE(degrees);
+      const GuidedWave wave =
+          guided_wave(body, {.angle = degrees * pi / 180, .frequency = 2 * pi * 500});
+      CHECK(!wave.exists);
+      CHECK(wave.reason.find("leaks") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("waves askew to fibres and stretch have the speeds that the Stroh formalism gives") {
   // data/synthetic_waves.py without its noise: moduli by differences of the energy, three decaying
   // waves, singular stiffness of the surface
