@@ -481,6 +481,16 @@ TEST_CASE(
               "disc: {of: top, within: {cylinder: {axis: y, radius: 2}}}, ");
   check_scalar(disc + "material: " + skin + "loads: [{on: disc, rotation: {angle: 20}}]\n" + four,
                "torque_disc", "d_torque_disc_N_mm_d_matrix_yeoh_a1", "matrix.yeoh.a1", 1e-5);
+  // the angle and the displacement of the axis move the nodes that the torque is taken of
+  const std::string askew =
+      disc + "material: " + skin +
+      "loads: [{on: disc, rotation: {angle: 30, through: [1.5, 2, 0.5], axis: [0.2, 1, 0.1]}, "
+      "displacement: {x: 0.2, y: -0.2}}]\n" +
+      four;
+  check_scalar(askew, "torque_disc", "d_torque_disc_N_mm_d_loads_0_rotation_angle",
+               "loads[0].rotation.angle", 1e-5);
+  check_scalar(askew, "torque_disc", "d_torque_disc_N_mm_d_loads_0_displacement_y",
+               "loads[0].displacement.y", 1e-5);
   check_scalar(
       block("hex8", "[6, 2, 6]") + "material: " + skin +
           "contacts: {ball: {on: contact, rigid: {sphere: {radius: 2.5, centre: [0, 5.5, 0]}}, friction: 0.2, motion: [{t: 0.5, "

@@ -1,6 +1,7 @@
 #include "scene/model/torque.hpp"
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace langer {
@@ -46,8 +47,37 @@ void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
   }
 }
 
+namespace {
+
+// How the lever arms of a turned set change. The set is rigid: where a parameter moves its nodes,
+// it moves the axis with them and turns them about it,
+//   d_x = d_p + d_angle a x (x - p)
+std::function<Vec3(int node)> arm_derivative(const TurnedSet& set, double t, const auto& position,
+                                             const auto& d_x) {
+  Vec3 mean = Vec3::Zero();
+  Vec3 d_mean = Vec3::Zero();
+  for (int node : set.nodes) {
+    mean += position(node) / static_cast<double>(set.nodes.size());
+    d_mean += d_x(node) / static_cast<double>(set.nodes.size());
+  }
+  double turned = 0;
+  double size = 0;
+  for (int node : set.nodes) {
+    const Vec3 by_angle = cross(set.axis.along, position(node) - mean);
+    turned += by_angle.dot(d_x(node) - d_mean);
+    size += by_angle.squaredNorm();
+  }
+  const double d_angle = size > 0 ? turned / size : 0;
+  const Vec3 d_p = d_mean - d_angle * cross(set.axis.along, mean - set.axis_at(t));
+  return [d_p, d_x](int node) {
+    return Vec3(d_x(node) - d_p);
+  };
+}
+
+}  // namespace
+
 // Derivatives of the torques with respect to a parameter, by the product rule: of the forces and of
-// the lever arms. The axis and the nodes of a turned set are prescribed and have no derivative.
+// the lever arms.
 std::map<std::string, double> torque_derivatives(const StepRecord& whole,
                                                  const StepRecord& derivative, const Mesh& mesh,
                                                  const Scene& scene) {
@@ -76,7 +106,12 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
     out[torque_name(contact.name)] = sum;
   }
   for (const TurnedSet& set : scene.turned) {
-    out[torque_name(set.name)] = torque(set, whole.t, x, derivative.reaction);
+    const auto d_arm = arm_derivative(set, whole.t, x, d_x);
+    double by_arms = 0;
+    for (int node : set.nodes)
+      by_arms +=
+          set.axis.along.dot(cross(d_arm(node), whole.reaction[static_cast<std::size_t>(node)]));
+    out[torque_name(set.name)] = torque(set, whole.t, x, derivative.reaction) + by_arms;
   }
   return out;
 }
