@@ -12,6 +12,7 @@
 #include "accuracy/estimate/dual_estimate.hpp"
 #include "accuracy/estimate/least_scatter.hpp"
 #include "accuracy/estimate/observed_law.hpp"
+#include "accuracy/estimate/pad_edges.hpp"
 #include "accuracy/estimate/refinements.hpp"
 #include "accuracy/estimate/truncation.hpp"
 #include "core/base/interrupt.hpp"
@@ -431,6 +432,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   // faster than the next ones do. What they differ by counts as scatter, too.
   const bool rubs = std::ranges::any_of(
       config.touching, [](const auto& contact) { return contact.second.friction > 0; });
+  const bool has_edges = rubs || has_pads(config);
+  const double of_pads = beside_pads(config);
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double on_layer = on_thin_layer(config);
   const double beside_hole = beside_holes(config);
@@ -444,7 +447,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const auto judged = [&](const Valued& q, double t, const std::vector<double>& on_meshes,
                           const std::vector<double>& in_increments) {
     double order = 1;
-    if (q.name != "von_mises_max" && !rubs) order = order_of_force(config);
+    if (q.name != "von_mises_max" && !has_edges) order = order_of_force(config);
     const auto limit = limit_of(all.meshes_for(q).length, on_meshes, order);
     if (!limit) return std::optional<ErrorEstimate>();
     std::optional<ObservedLaw> law;
@@ -478,7 +481,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
           std::max(e.scatter, 0.5 * between_points(config, touching, section) * std::abs(q.value));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
-    if (q.unit != unit::MPa) e.scatter = std::max(e.scatter, 0.5 * beside_end * std::abs(q.value));
+    if (q.unit != unit::MPa)
+      e.scatter = std::max(e.scatter, 0.5 * std::max(beside_end, of_pads) * std::abs(q.value));
     if (law && law->scatter > 0 && q.of_force())
       e.scatter = std::max(e.scatter, 0.5 * beside_clamp * std::abs(q.value));
     if (q.of_contact()) {

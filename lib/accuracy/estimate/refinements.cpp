@@ -101,6 +101,10 @@ void add_coarser_bodies(Refinements& refined, const SolveConfig& config) {
     refined.length.push_back(4.0 / parts);
     for (auto& [name, body] : other.bodies) {
       Block& block = std::get<Block>(body.mesh.geometry);
+      if (block.family) {
+        block.family->parts = parts;
+        continue;
+      }
       std::array<int, 3> n = block.numbers();
       for (int& along : n)
         if (along > 1) along = along * parts / 4;

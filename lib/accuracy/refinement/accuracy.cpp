@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accuracy/checks/progress.hpp"
+#include "accuracy/estimate/pad_edges.hpp"
 #include "accuracy/refinement/adaptive_cells.hpp"
 #include "accuracy/refinement/constants.hpp"
 #include "accuracy/refinement/level_cost.hpp"
@@ -218,8 +219,10 @@ std::string kept_and_replaced(const SolveConfig& written, AccuracyLevel& level) 
 // Of several bodies: the config's own cells, whose estimate decides. All bodies get shorter cells
 // together.
 void choose_for_bodies(const SolveConfig& config, ChosenLevel& chosen) {
-  for (const auto& [name, body] : config.bodies)
-    chosen.bodies[name] = std::get<Block>(body.mesh.geometry).divisions;
+  for (const auto& [name, body] : config.bodies) {
+    Block& block = chosen.bodies[name] = std::get<Block>(body.mesh.geometry);
+    if (has_pads(config)) block.family = MeshFamily{.breaks = pad_edges_on(config, name)};
+  }
   chosen.level = {CellType::hex8, 1, config.path.largest_increment(), 0, false};
   chosen.finest = std::min(1.0, std::cbrt(n_cells(chosen, chosen.level) / most_hex8));
   chosen.shown = false;

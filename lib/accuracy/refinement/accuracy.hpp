@@ -54,8 +54,8 @@ struct ChosenLevel {
   std::string words;
   double finest = 0;      // edge of the shortest cells that are tried
   Geometry written = {};  // of the config, its cells placed
-  // of a scene of several bodies, in place of `written`: numbers of cells along each axis
-  std::map<std::string, std::array<int, 3>> bodies = {};
+  // of a scene of several bodies, in place of `written`; with lines along the edges of pads
+  std::map<std::string, Block> bodies = {};
   bool cut = false;  // cells, where the error comes from (accuracy/refinement/adaptive_cells.hpp)
 };
 // Puts the level's cells, increments and symmetry into the config, and the cells to where the

@@ -44,13 +44,12 @@ void put_length(const ChosenLevel& chosen, double length, Geometry& geometry) {
   }
 }
 
-// Numbers of cells longer by a factor: 1, or a multiple of 4, which has coarser meshes.
-std::array<int, 3> divisions_with(const std::array<int, 3>& written, double length) {
-  std::array<int, 3> n = written;
-  for (int& along : n)
+// Cells longer by a factor: 1, or a multiple of 4, which has coarser meshes.
+Block with_length(Block block, double length) {
+  for (int& along : block.divisions)
     if (along > 1)
       along = 4 * std::max(1, static_cast<int>(std::ceil(along / (4 * length) - 1e-9)));
-  return n;
+  return block;
 }
 
 double cells_with_length(const ChosenLevel& chosen, double length) {
@@ -61,7 +60,7 @@ double cells_with_length(const ChosenLevel& chosen, double length) {
   }
   double cells = 0;
   for (const auto& [name, written] : chosen.bodies) {
-    const std::array<int, 3> n = divisions_with(written, length);
+    const std::array<int, 3> n = with_length(written, length).numbers();
     cells += 1.0 * n[0] * n[1] * n[2];
   }
   return cells;
@@ -143,8 +142,7 @@ double n_cells(const ChosenLevel& chosen, const AccuracyLevel& level) {
 void put(const ChosenLevel& chosen, SolveConfig& config) {
   const AccuracyLevel& level = chosen.level;
   for (const auto& [name, written] : chosen.bodies)
-    std::get<Block>(config.bodies.at(name).mesh.geometry).divisions =
-        divisions_with(written, level.edge);
+    config.bodies.at(name).mesh.geometry = with_length(written, level.edge);
   if (chosen.bodies.empty()) {
     put_length(chosen, level.edge, config.mesh->geometry);
     config.mesh->cells = level.cells;
