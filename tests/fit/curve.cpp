@@ -52,6 +52,8 @@ TEST_CASE("what is not a finite number is refused with line and column") {
   const std::string head = "strain,cauchy_stress_MPa\n0,0\n";
   starts(refusal(head + "0.1,nan\n"), "c.csv:3:5: found nan; expected a finite number");
   starts(refusal(head + "0.1, inf\n"), "c.csv:3:6: found inf; expected a finite number");
+  starts(refusal(head + "0.1,1e154\n"),
+         "c.csv:3:5: found 1e154; expected a number of at most 1e+100");
   starts(refusal(head + "0.1,1e999\n"), "c.csv:3:5: found 1e999");
   starts(refusal(head + "0.1,\n"), "c.csv:3:5: found nothing; expected a finite number");
   starts(refusal(head + "0.1,0.2 MPa\n"), "c.csv:3:5: found 0.2 MPa");

@@ -358,9 +358,10 @@ struct Reading {
   // A number times a factor of units, which may leave the range of numbers.
   double scaled(const CsvRow& row, std::size_t column, double unit) {
     const double x = unit * number(row, column);
-    if (std::isfinite(x)) return x;
+    constexpr double largest = 1e100;  // its square has to stay finite
+    if (std::abs(x) <= largest) return x;
     say(row.line, row.cells[column].column, "", "found " + row.cells[column].text,
-        "a number that stays finite in MPa and s");
+        fmt::format("a number of at most {:g} in MPa and s", largest));
     return 0;
   }
 
