@@ -215,3 +215,47 @@ TEST_CASE("judged quantities: what a scene does not have is refused by name") {
   CHECK(said("{of: apex, within: 1%}").find("apex_height, pull_off or von_mises_max") !=
         std::string::npos);
 }
+
+TEST_CASE("judged quantities: the largest stress of a clamped block that is pulled has no bar") {
+  const std::string scene =
+      "mesh: {geometry: {block: {size: [10, 4, 6], divisions: [10, 4, 6]}}}\n"
+      "material: {matrix: {neo_hooke: {a1: 0.05}}, volume: {quadratic: {d: 1.0e-4}}}\n"
+      "supports: [{on: x_min, hold: [x, y, z]}, {on: x_max, hold: [y, z]}]\n"
+      "loads: [{on: x_max, displacement: {x: 2}}]\npath: {steps: 2}\nstability: off\n";
+  CHECK(judged(scene, "5%").of("von_mises_max").grows);
+  const SolveConfig config = test::config_of(scene + "estimate: recovery\n");
+  Run run(body_mesh(config, "", test::nowhere), config, config.material, test::nowhere);
+  RecoveredPath recovered(run, config, true);
+  const RunEnd end = run.follow(recovered.beside({}).along({}));
+  REQUIRE(end.path.complete);
+  const auto found = valued(config, run.scene, run.mesh, end.last);
+  const auto errors = recovered.errors(end.last, found, true).at_end;
+  CHECK(test::estimate_of(errors, "von_mises_max").grows);
+}
+
+// limits of much finer meshes: sections of 96 x 32 and 192 x 64 cells, blocks with edges of 0.09
+// and 0.07 contact radii
+TEST_CASE("judged quantities: the stress of a thin layer and a point beside an indenter") {
+  const Judged layers = judged(
+      "mesh:\n  geometry: {section: {of: axisymmetric, size: [12, 4], divisions: [24, 8]}}\n"
+      "  bodies: [{name: fat, thickness: 3}, {name: skin, thickness: 1}]\n"
+      "materials:\n"
+      "  fat: {material: {matrix: {neo_hooke: {a1: 0.01}}, volume: {quadratic: {d: 1.0e-3}}}}\n"
+      "  skin: {material: {matrix: {neo_hooke: {a1: 0.1}}, volume: {quadratic: {d: 1.0e-3}}}}\n"
+      "supports: [{on: bottom, hold: [x, y]}]\n"
+      "contacts: {s: {on: top, rigid: {sphere: {radius: 3, centre: [0, 7, 0]}}, friction: 0.3, "
+      "motion: [{t: 1, to: [0, -0.6, 0]}]}}\npath: {steps: 3}\n",
+      "50%");
+  const ErrorEstimate& stress = layers.of("von_mises_max");
+  CHECK(std::abs(stress.of.value - 0.136) < stress.total());
+  const Judged point = judged(
+      "mesh:\n  geometry: {indented_block: {origin: [-6, 0, -6], size: [12, 4, 12], radius: 2, "
+      "depth: 0.5, edge: 0.175}}\n  points: {q: [3, 4, 0]}\n"
+      "material: {matrix: {yeoh: {a1: 0.02, a2: 0.05, a3: 0.01}}, volume: {quadratic: {d: 0.01}}}\n"
+      "supports: [{on: bottom, hold: [x, y, z]}]\n"
+      "contacts: {p: {on: top, rigid: {ellipsoid: {half_axes: [3, 1.5, 1], centre: [0, 5.5, 0]}}, "
+      "motion: [{t: 1, to: [0, -0.5, 0]}]}}\npath: {steps: 5}\n",
+      "50%");
+  const ErrorEstimate& moved = point.of("displacement_q");
+  CHECK(std::abs(moved.of.value - 0.0338) < moved.total());
+}

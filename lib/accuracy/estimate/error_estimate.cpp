@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 
 #include "accuracy/estimate/dual_estimate.hpp"
 #include "accuracy/estimate/least_scatter.hpp"
@@ -95,9 +96,9 @@ std::optional<Limit> limit_of(const std::vector<double>& length, const std::vect
   return Limit{q_mean - A * x_mean, std::sqrt(w.dot(left.cwiseProduct(left)))};
 }
 
-// Whether a face of the body is held or moved in its plane, too: at its edges stresses are
+// Faces of the body that are held or moved in their plane, too: at their edges stresses are
 // singular.
-bool is_clamped(const SolveConfig& config) {
+std::vector<std::string> clamped_sets(const SolveConfig& config) {
   std::map<std::string, std::set<Axis>> given;
   for (const SupportConfig& support : config.supports)
     given[support.on].insert(support.hold.begin(), support.hold.end());
@@ -105,8 +106,41 @@ bool is_clamped(const SolveConfig& config) {
     for (int axis = 0; axis < 3; ++axis)
       if (load.tells(axis)) given[load.on].insert(static_cast<Axis>(axis));
   }
-  return std::any_of(given.begin(), given.end(),
-                     [](const auto& on) { return on.second.size() > 1; });
+  std::vector<std::string> sets;
+  for (const auto& [on, axes] : given)
+    if (axes.size() > 1) sets.push_back(on);
+  return sets;
+}
+
+bool is_clamped(const SolveConfig& config) { return !clamped_sets(config).empty(); }
+
+// Whether a node belongs to a cell at a face with edges at which stresses are singular. Under an
+// indenter edges are far away.
+bool is_at_edge(const SolveConfig& config, const Mesh& mesh, int node) {
+  std::vector<std::string> sets;
+  if (config.contacts.empty()) sets = clamped_sets(config);
+  // The edges of a clamped face that is moved carry the load: however low the stress is there on
+  // long cells, on shorter ones it is the greatest.
+  const std::set<std::string> moved = moved_sets(config);
+  if (std::ranges::any_of(sets, [&](const std::string& set) { return moved.contains(set); }))
+    return true;
+  if (has_pads(config))
+    for (const auto& [name, contact] : config.touching) {
+      sets.push_back(contact.on);
+      sets.push_back(contact.against.value_or(contact.on));
+    }
+  std::set<int> at_faces;
+  for (const std::string& set : sets)
+    if (const auto nodes = mesh.node_sets.find(set); nodes != mesh.node_sets.end())
+      at_faces.insert(nodes->second.begin(), nodes->second.end());
+  const auto of_cell = static_cast<std::size_t>(nodes_per_cell(mesh.type));
+  for (std::size_t first = 0; first < mesh.connectivity.size(); first += of_cell) {
+    const std::span cell(mesh.connectivity.begin() + static_cast<std::ptrdiff_t>(first), of_cell);
+    if (std::ranges::count(cell, node) > 0 &&
+        std::ranges::any_of(cell, [&](int n) { return at_faces.contains(n); }))
+      return true;
+  }
+  return false;
 }
 
 const Valued& quantity(const Valued& found) { return found; }
@@ -225,8 +259,13 @@ std::vector<Valued> valued(const SolveConfig& config, const Scene& scene, const 
     return std::ranges::any_of(found, [&](const Valued& q) { return q.name == name; });
   };
   // the stress of a viscous body follows from all of its steps, and one is here
-  if (!has_viscous_law(scene) && !known("von_mises_max"))
-    found.push_back({"von_mises_max", "MPa", largest_von_mises(scene, mesh, state.u)});
+  if (!has_viscous_law(scene)) {
+    const std::string name = "von_mises_max";
+    const LargestStress most = largest_von_mises_at(scene, mesh, state.u);
+    if (!known(name)) found.push_back({name, "MPa", most.value});
+    for (Valued& q : found)
+      if (q.name == name) q.at_edge = is_at_edge(config, mesh, most.node);
+  }
   for (const auto& [name, nodes] : mesh.node_sets)
     if (nodes.size() == 1 && !known("displacement_" + name))
       found.push_back(
@@ -371,6 +410,18 @@ void mark_asked(const SolveConfig& config, const Find& where, const std::vector<
 
 namespace {
 
+// How far the indenters move, at most [mm].
+double travel_of_indenters(const SolveConfig& config, const SolvedPath& solved) {
+  double furthest = 0;
+  for (const auto& [name, contact] : config.contacts)
+    for (const WaypointConfig& waypoint : contact.motion)
+      furthest = std::max(furthest, Vec3(waypoint.to[0], waypoint.to[1], waypoint.to[2]).norm());
+  for (const StepForces& step : solved.path)
+    for (const auto& [name, value] : step.of)
+      if (name.starts_with("travel_")) furthest = std::max(furthest, std::abs(value));
+  return furthest;
+}
+
 // A load on a part of a side acts on whole facets. Coarser meshes whose lines do not meet its edges
 // solve another scene. With an accuracy, lines are put there.
 std::string other_areas(const SolveConfig& config, const Refinements& refined, const Find& where) {
@@ -434,6 +485,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       config.touching, [](const auto& contact) { return contact.second.friction > 0; });
   const bool has_edges = rubs || has_pads(config);
   const double of_pads = beside_pads(config);
+  const double across_layers = across_few_cells(config);
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double on_layer = on_thin_layer(config);
   const double beside_hole = beside_holes(config);
@@ -474,11 +526,17 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       e.order_observed = true;
       e.scatter = std::max(e.scatter, 0.5 * std::abs(on_meshes.front() - on_meshes.back()));
     }
+    constexpr double uniform = 1e-6;  // of bodies that deform alike everywhere
+    if (q.at_edge && std::abs(e.cells) + e.scatter > uniform * std::abs(q.value)) e.grows = true;
     const double touching =
         touching_at(all.meshes_for(q).of.front().path, q.of_force() ? q.name : "force", t);
-    if (q.name == "von_mises_max")
-      e.scatter =
-          std::max(e.scatter, 0.5 * between_points(config, touching, section) * std::abs(q.value));
+    if (q.name == "von_mises_max") {
+      const double least = std::max(between_points(config, touching, section), across_layers);
+      e.scatter = std::max(e.scatter, 0.5 * least * std::abs(q.value));
+    }
+    if (q.unit == unit::mm && !q.of_travel())
+      e.scatter = std::max(
+          e.scatter, 0.5 * beside_contact(touching, section) * travel_of_indenters(config, itself));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.unit != unit::MPa)
@@ -519,14 +577,16 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
     if (t == 1) {
       estimate = judged(q, 1, meshes_of_q.ends(q.name), increments.ends(q.name));
     } else {
-      const Valued there{q.name, q.unit, force_at(itself.path, q.name, t)};
+      Valued there = q;
+      there.value = force_at(itself.path, q.name, t);
       estimate = judged(there, t, meshes_of_q.forces(q.name, t), increments.forces(q.name, t));
     }
     if (!estimate) continue;
     if (has_path) {
       std::vector<ErrorEstimate> steps;
       for (const StepForces& step : itself.path) {
-        const Valued there{q.name, q.unit, force_at(itself.path, q.name, step.t)};
+        Valued there = q;
+        there.value = force_at(itself.path, q.name, step.t);
         steps.push_back(*judged(there, step.t, meshes_of_q.forces(q.name, step.t),
                                 increments.forces(q.name, step.t)));
       }

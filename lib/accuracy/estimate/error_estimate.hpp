@@ -53,6 +53,8 @@ inline bool asks_for_accuracy(const SolveConfig& config) {
 struct Valued {
   std::string name, unit;
   double value = 0;
+  // A greatest stress at a face that is clamped, or that a pad touches: it is singular there.
+  bool at_edge = false;
   bool of_force() const { return unit == langer::unit::N || unit == "N mm"; }  // or a torque
   bool of_travel() const { return name.starts_with("travel_"); }
   bool of_contact() const;  // what single nodes in contact change

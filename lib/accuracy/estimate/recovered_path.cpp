@@ -91,6 +91,7 @@ std::vector<ErrorEstimate> recovered_errors(const SolveConfig& config, const Rec
         e.increments = by_increments * std::pow(config.path.largest_increment(), 2) * size;
     } else if (q.name == "von_mises_max") {
       e.cells = error.von_mises_spread;
+      e.grows = q.at_edge && e.cells > 0;
     } else {
       continue;
     }

@@ -343,10 +343,13 @@ ReachedAccuracy reached(const ChosenLevel& chosen, const std::vector<ErrorEstima
   for (const ErrorEstimate& e : forces) found.percent = std::max(found.percent, e.percent());
   if (estimated) found.met = found.percent <= chosen.wanted;
   if (found.met) return found;
+  const auto in_a_word = [](const Valued& q) {
+    if (q.of_force()) return "force";
+    return q.unit == unit::MPa ? "stress" : "displacement";
+  };
   if (estimated)
-    found.words = fmt::format(
-        "asked for {:g} %, and the error of the {} is estimated at {:.2g} %", chosen.wanted,
-        forces.front().of.of_force() ? "force" : "displacement", found.percent);
+    found.words = fmt::format("asked for {:g} %, and the error of the {} is estimated at {:.2g} %",
+                              chosen.wanted, in_a_word(forces.front().of), found.percent);
   else if (chosen.shown)
     found.words = fmt::format(
         "asked for {:g} %, and the error of the force is in scenes of this kind up to {:.2g} %",

@@ -192,15 +192,20 @@ double pull_between_steps(const std::vector<StepForces>& path) {
 
 bool has_viscous_law(const Scene& scene) { return ViscousPoints::needed(scene.materials); }
 
-double largest_von_mises(const Scene& scene, const Mesh& mesh, const std::vector<Vec3>& u) {
+LargestStress largest_von_mises_at(const Scene& scene, const Mesh& mesh,
+                                   const std::vector<Vec3>& u) {
   const Body body(mesh, scene.materials, scene.directions, scene.formulation);
   const GaussValues gauss = gauss_values(body, u);
-  double most = 0;
+  LargestStress most;
   for (int n = 0; n < mesh.n_nodes(); ++n) {
-    const VecX row = node_values(body, n, gauss, StressAt::nodal_average);
-    most = std::max(most, von_mises(sigma_of(row)));
+    const double here = von_mises(sigma_of(node_values(body, n, gauss, StressAt::nodal_average)));
+    if (here > most.value) most = {here, n};
   }
   return most;
+}
+
+double largest_von_mises(const Scene& scene, const Mesh& mesh, const std::vector<Vec3>& u) {
+  return largest_von_mises_at(scene, mesh, u).value;
 }
 
 double force_at(const std::vector<StepForces>& path, const std::string& name, double t) {

@@ -43,7 +43,14 @@ void append_step(std::vector<StepForces>& path, StepForces step);
 // through the step with the greatest and its neighbours [N].
 double pull_between_steps(const std::vector<StepForces>& path);
 
-// The greatest von Mises stress of the nodes, averaged as in tables [MPa].
+// The greatest von Mises stress of the nodes, averaged as in tables [MPa], and the node that has
+// it.
+struct LargestStress {
+  double value = 0;
+  int node = 0;
+};
+LargestStress largest_von_mises_at(const Scene& scene, const Mesh& mesh,
+                                   const std::vector<Vec3>& u);
 double largest_von_mises(const Scene& scene, const Mesh& mesh, const std::vector<Vec3>& u);
 bool has_viscous_law(const Scene& scene);
 
