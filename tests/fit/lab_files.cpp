@@ -122,6 +122,11 @@ TEST_CASE(
         "width_z: missing, for the column \"Fz_N\"");
 }
 
+TEST_CASE("blanks in names do not divide columns that commas divide") {
+  holds(refusal("strain (mm/m),nominal stress (kPa)\n0,0\n30,3.5\n60,7.1\n"),
+        "l.csv:1:1: columns: found strain (mm/m), nominal stress (kPa); expected one column");
+}
+
 TEST_CASE("what can be read in two ways is asked about, and the key that is named cures it") {
   const std::string thousands = "strain;nominal_stress_Pa\n1,234;1,500\n2,345;2,500\n";
   holds(refusal(thousands), "l.csv:2:1: found 1,234, and no other number shows");

@@ -218,8 +218,14 @@ std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
                                           const std::string& separators,
                                           const CsvReading& reading) {
   if (!reading.is_header) return std::nullopt;
+  // Blanks divide names that commas divide, too. They do not divide columns if a row has none.
+  const auto divides = [&](char separator) {
+    const auto row = std::ranges::find_if(lines.rbegin(), lines.rend(),
+                                          [](const CsvLine& line) { return !line.comment; });
+    return separator != ' ' || row == lines.rend() || row_of(*row, ' ').cells.size() > 1;
+  };
   for (char separator : separators)
-    for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t i = 0; i < lines.size() && divides(separator); ++i)
       if (!lines[i].comment)
         if (CsvRow row = row_of(lines[i], separator); reading.is_header(row.cells))
           return HeaderPosition{std::move(row), i + 1, separator};
