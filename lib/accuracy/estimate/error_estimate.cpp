@@ -553,8 +553,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       e.scatter = std::max(e.scatter, 0.5 * least * std::abs(q.value));
     }
     if (q.unit == unit::mm && !q.of_travel())
-      e.scatter = std::max(
-          e.scatter, 0.5 * beside_contact(touching, section) * travel_of_indenters(config, itself));
+      e.scatter = std::max(e.scatter, 0.5 * beside_contact(config, touching, section) *
+                                          travel_of_indenters(config, itself));
     if (q.unit == unit::mm && !q.of_travel())
       e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
     if (q.unit != unit::MPa)

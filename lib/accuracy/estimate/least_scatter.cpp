@@ -117,12 +117,31 @@ double across_few_cells(const SolveConfig& config) {
   return 1.6 / cells;
 }
 
+namespace {
+
+// How many times as long as wide a contact is, at most: for radii of curvature R1, R2 about
+// (R1 / R2)^(2/3), and those of an ellipsoid are in the ratio of its half axes squared.
+double slenderness(const SolveConfig& config) {
+  double most_slender = 1;
+  for (const auto& [name, contact] : config.contacts) {
+    const Indenter shape = contact.rigid.value();
+    const auto* ellipsoid = std::get_if<Ellipsoid>(&shape);
+    if (!ellipsoid) continue;
+    const auto [least, largest] = std::ranges::minmax(ellipsoid->half_axes);
+    most_slender = std::max(most_slender, std::pow(largest / least, 4.0 / 3));
+  }
+  return most_slender;
+}
+
+}  // namespace
+
 // Beside an indenter the surface of a nearly incompressible layer rises by a part of the travel.
-// Nine drawn points missed up to 0.1 of a cell's length in contact radii times the travel.
-double beside_contact(double touching, bool section) {
+// Points beside eight drawn spheres and an ellipsoid of 3 : 1 missed up to 0.036 of the travel
+// times the cells' length in radii of the contact, of a slender one in half its width.
+double beside_contact(const SolveConfig& config, double touching, bool section) {
   if (touching < 1) return 0;
   const double length = section ? 1 / touching : std::sqrt(std::numbers::pi / touching);
-  return 0.12 * std::min(1.0, length);
+  return 0.045 * std::min(1.0, length * std::sqrt(slenderness(config)));
 }
 
 // At the edges of a clamped face errors are of first order. Where values on three meshes go to and

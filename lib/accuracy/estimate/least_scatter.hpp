@@ -32,7 +32,7 @@ double between_points(const SolveConfig& config, double touching, bool section);
 // largest von Mises stress of layers, from the cells over their thickness
 double across_few_cells(const SolveConfig& config);
 // displacement of a point of a body that is indented, in parts of the travel of the indenter
-double beside_contact(double touching, bool section);
+double beside_contact(const SolveConfig& config, double touching, bool section);
 
 // reaction of a clamped body whose values go to and fro on three meshes
 double beside_clamps(const SolveConfig& config);
