@@ -129,6 +129,7 @@ bool is_at_edge(const SolveConfig& config, const Mesh& mesh, int node) {
       sets.push_back(contact.on);
       sets.push_back(contact.against.value_or(contact.on));
     }
+  if (sets.empty()) return false;
   std::set<int> at_faces;
   for (const std::string& set : sets)
     if (const auto nodes = mesh.node_sets.find(set); nodes != mesh.node_sets.end())
@@ -504,6 +505,7 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
   const bool has_edges = rubs || has_pads(config);
   const double of_pads = beside_pads(config);
   const double across_layers = across_few_cells(config);
+  const double travel = travel_of_indenters(config, itself);
   const bool section = config.mesh && is_section(config.mesh->geometry);
   const double on_layer = on_thin_layer(config);
   const double beside_hole = beside_holes(config);
@@ -553,10 +555,8 @@ PathErrors estimate_along(const SolveConfig& config, const std::optional<Materia
       e.scatter = std::max(e.scatter, 0.5 * least * std::abs(q.value));
     }
     if (q.unit == unit::mm && !q.of_travel())
-      e.scatter = std::max(e.scatter, 0.5 * beside_contact(config, touching, section) *
-                                          travel_of_indenters(config, itself));
-    if (q.unit == unit::mm && !q.of_travel())
-      e.scatter = std::max(e.scatter, 0.5 * beside_rim * std::abs(q.value));
+      e.scatter = std::max({e.scatter, 0.5 * beside_contact(config, touching, section) * travel,
+                            0.5 * beside_rim * std::abs(q.value)});
     if (q.unit != unit::MPa)
       e.scatter = std::max(e.scatter, 0.5 * std::max(beside_end, of_pads) * std::abs(q.value));
     if (law && law->scatter > 0 && q.of_force())

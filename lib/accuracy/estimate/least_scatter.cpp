@@ -34,6 +34,12 @@ double sharpness(const SolveConfig& config) {
   return sharpest;
 }
 
+// The cells' length in radii of the contact: its nodes fill a disc, or a radius of a section.
+double length_in_contact(double touching, bool section) {
+  if (section) return 1 / touching;
+  return std::sqrt(std::numbers::pi / touching);
+}
+
 bool all_are_round(const SolveConfig& config) {
   return std::ranges::all_of(config.contacts, [](const auto& contact) {
     return force_order(contact.second.rigid.value()) == 2;
@@ -94,10 +100,7 @@ double round_an_edge(const SolveConfig& config, double touching, bool section) {
 // at the rounded edge, in as many cells fewer as that is shorter than the punch.
 double between_points(const SolveConfig& config, double touching, bool section) {
   if (touching < 1) return 0;
-  // The nodes in contact fill a disc, or a radius of a section.
-  double length = std::sqrt(std::numbers::pi / touching);
-  if (section) length = 1 / touching;
-  return sharpness(config) * std::min(most, 0.6 * length);
+  return sharpness(config) * std::min(most, 0.6 * length_in_contact(touching, section));
 }
 
 // The stress of a stiff layer on a soft one is largest at its faces, where cells find it from their
@@ -140,7 +143,7 @@ double slenderness(const SolveConfig& config) {
 // times the cells' length in radii of the contact, of a slender one in half its width.
 double beside_contact(const SolveConfig& config, double touching, bool section) {
   if (touching < 1) return 0;
-  const double length = section ? 1 / touching : std::sqrt(std::numbers::pi / touching);
+  const double length = length_in_contact(touching, section);
   return 0.045 * std::min(1.0, length * std::sqrt(slenderness(config)));
 }
 

@@ -224,11 +224,13 @@ std::optional<HeaderPosition> find_header(const std::vector<CsvLine>& lines,
                                           [](const CsvLine& line) { return !line.comment; });
     return separator != ' ' || row == lines.rend() || row_of(*row, ' ').cells.size() > 1;
   };
-  for (char separator : separators)
-    for (std::size_t i = 0; i < lines.size() && divides(separator); ++i)
+  for (char separator : separators) {
+    if (!divides(separator)) continue;
+    for (std::size_t i = 0; i < lines.size(); ++i)
       if (!lines[i].comment)
         if (CsvRow row = row_of(lines[i], separator); reading.is_header(row.cells))
           return HeaderPosition{std::move(row), i + 1, separator};
+  }
   // a comment among those before the first numbers
   std::size_t first = 0;
   while (first < lines.size() && lines[first].comment) ++first;

@@ -1,7 +1,6 @@
 #include "scene/model/torque.hpp"
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace langer {
@@ -49,11 +48,10 @@ void add_torques(StepRecord& whole, const Mesh& mesh, const Scene& scene) {
 
 namespace {
 
-// How the lever arms of a turned set change. The set is rigid: where a parameter moves its nodes,
+// How a point p of a turned set's axis moves. The set is rigid: where a parameter moves its nodes,
 // it moves the axis with them and turns them about it,
 //   d_x = d_p + d_angle a x (x - p)
-std::function<Vec3(int node)> arm_derivative(const TurnedSet& set, double t, const auto& position,
-                                             const auto& d_x) {
+Vec3 axis_derivative(const TurnedSet& set, double t, const auto& position, const auto& d_x) {
   Vec3 mean = Vec3::Zero();
   Vec3 d_mean = Vec3::Zero();
   for (int node : set.nodes) {
@@ -67,11 +65,8 @@ std::function<Vec3(int node)> arm_derivative(const TurnedSet& set, double t, con
     turned += by_angle.dot(d_x(node) - d_mean);
     size += by_angle.squaredNorm();
   }
-  const double d_angle = size > 0 ? turned / size : 0;
-  const Vec3 d_p = d_mean - d_angle * cross(set.axis.along, mean - set.axis_at(t));
-  return [d_p, d_x](int node) {
-    return Vec3(d_x(node) - d_p);
-  };
+  if (!(size > 0)) return d_mean;  // all nodes lie on the axis
+  return d_mean - turned / size * cross(set.axis.along, mean - set.axis_at(t));
 }
 
 }  // namespace
@@ -106,11 +101,11 @@ std::map<std::string, double> torque_derivatives(const StepRecord& whole,
     out[torque_name(contact.name)] = sum;
   }
   for (const TurnedSet& set : scene.turned) {
-    const auto d_arm = arm_derivative(set, whole.t, x, d_x);
+    const Vec3 d_p = axis_derivative(set, whole.t, x, d_x);
     double by_arms = 0;
     for (int node : set.nodes)
-      by_arms +=
-          set.axis.along.dot(cross(d_arm(node), whole.reaction[static_cast<std::size_t>(node)]));
+      by_arms += set.axis.along.dot(
+          cross(d_x(node) - d_p, whole.reaction[static_cast<std::size_t>(node)]));
     out[torque_name(set.name)] = torque(set, whole.t, x, derivative.reaction) + by_arms;
   }
   return out;
