@@ -45,7 +45,7 @@ struct LinearSolver::State {
   // otherwise permute A twice before each factor, which takes longer than a small factor itself
   cholmod_sparse* permuted = nullptr;
   std::vector<int> permuted_from;   // entry of permuted -> entry of A
-  std::vector<int> fill_reducing;   // rows in METIS's order
+  std::vector<int> fill_reducing;   // rows in the order of small fill
   std::vector<int> last;            // rows to eliminate last
   std::vector<int> place_of;        // row -> index in `last`, or -1
   bool trailing = false;            // the last rows of L are those of `last`
