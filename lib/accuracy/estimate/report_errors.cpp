@@ -119,7 +119,7 @@ void report_results(const Voice& voice, const SolveConfig& config, const Run& ru
     any = true;
   }
   // Without an estimate the numbers themselves; no detail has named them before.
-  for (const Valued& one : valued(config, run.scene, run.mesh, last)) {
+  for (const Valued& one : valued_forces(step_forces(config, run.scene, run.mesh, last))) {
     if (!one.of_force() || has_estimate(estimates, one.name)) continue;
     if (any && config.in_motion()) continue;  // the force of an impact has been named
     if (one.name == "pull_off") continue;     // that of the end, and not the greatest

@@ -96,13 +96,16 @@ double SurfaceCheck::half_diagonal(const Patch& patch) const {
 }
 
 // s, t in [-1, 1]; of a triangle in [0, 1] with s + t <= 1
-VecX SurfaceCheck::weights(const Patch& patch, double s, double t) const {
+SurfaceCheck::Weights SurfaceCheck::weights(const Patch& patch, double s, double t) const {
   const std::size_t n = patch.nodes.size();
-  VecX w(n);
+  Weights w(n);
   if (n == 2) {
     w << 0.5 * (1 - s), 0.5 * (1 + s);
   } else if (n == 3) {
     w << 0.5 * s * (s - 1), 0.5 * s * (s + 1), 1 - s * s;
+  } else if (n == 4) {
+    w << (1 - s) * (1 - t), (1 + s) * (1 - t), (1 + s) * (1 + t), (1 - s) * (1 + t);
+    w *= 0.25;
   } else {  // all facets of a cell have the same functions in the order of their nodes
     const ReferenceCell& cell = mesh_.cell();
     const auto& local = cell.facet[0];
@@ -136,7 +139,7 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
   double best_t = low;
   double best = std::numeric_limits<double>::infinity();
   const auto at = [&](double s, double t) {
-    const VecX w = weights(patch, s, t);
+    const Weights w = weights(patch, s, t);
     Vec3 p = Vec3::Zero();
     for (std::size_t k = 0; k < patch.nodes.size(); ++k) p += w[k] * x[patch.nodes[k]];
     return shape_at(contact.shape, p - c);
@@ -191,7 +194,7 @@ SurfaceCheck::Deepest SurfaceCheck::deepest(const Patch& patch, const RigidConta
       for (int j = -1; j <= 1; ++j) visit(s + i * step, t + j * step);
     if (best_s == s && best_t == t) step *= 0.5;
   }
-  const VecX w = weights(patch, best_s, best_t);
+  const Weights w = weights(patch, best_s, best_t);
   Vec3 X = Vec3::Zero();
   for (std::size_t k = 0; k < patch.nodes.size(); ++k) X += w[k] * mesh_.X[patch.nodes[k]];
   return {best, X};

@@ -60,7 +60,8 @@ class SurfaceCheck {
     double gap;
     Vec3 X;
   };
-  VecX weights(const Patch& patch, double s, double t) const;
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;  // of the nodes of a facet
+  Weights weights(const Patch& patch, double s, double t) const;
   Deepest deepest(const Patch& patch, const RigidContact& contact, const std::vector<Vec3>& x,
                   const Vec3& c) const;
   bool inside_body(const Vec3& p, const std::vector<Vec3>& x) const;

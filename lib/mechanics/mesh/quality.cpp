@@ -57,22 +57,30 @@ Quality shapes(const Mesh& mesh, bool of_section) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Quality q;
   q.least_jacobian = q.least_scaled_jacobian = q.shortest_edge = infinity;
+  Vec3 least_at = Vec3::Zero();  // in the reference cell
   const auto notice = [&](double det, int e, const Vec3& xi) {
     if (det < q.least_jacobian) {
       q.least_jacobian = det;
       q.at_cell = e;
-      q.at = position(mesh, e, xi);
+      least_at = xi;
     }
   };
   const ReferenceCell& cell = mesh.cell();
-  std::vector<Gradients> at_node;
-  for (const Vec3& xi : cell.node) at_node.push_back(cell.gradient(xi));
-  Eigen::Matrix<double, 3, Eigen::Dynamic> X(3, cell.n_nodes);  // of the nodes of one cell
+  // The gradients of all places stand side by side: one product gives all Jacobians of a cell.
+  MatX gradients(cell.n_nodes, 3 * (cell.n_nodes + cell.n_gauss));
+  for (int a = 0; a < cell.n_nodes; ++a)
+    gradients.middleCols<3>(3 * a) = cell.gradient(cell.node[a]);
+  for (int g = 0; g < cell.n_gauss; ++g)
+    gradients.middleCols<3>(3 * (cell.n_nodes + g)) = cell.dN[static_cast<std::size_t>(g)];
+  using ThreeRows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+  ThreeRows X(3, cell.n_nodes);  // of the nodes of one cell
+  ThreeRows jacobians(3, gradients.cols());
   for (int e = 0; e < mesh.n_cells(); ++e) {
     for (int a = 0; a < cell.n_nodes; ++a)
       X.col(a) = mesh.X[static_cast<std::size_t>(mesh.cell(e)[a])];
+    jacobians.noalias() = X * gradients;
     for (int a = 0; a < cell.n_nodes; ++a) {
-      const Mat3 J = X * at_node[static_cast<std::size_t>(a)];
+      const Mat3 J = jacobians.middleCols<3>(3 * a);
       notice(J.determinant(), e, cell.node[a]);
       // The scaled Jacobian is det J over the product of its column lengths: 1 in a box, 0 in a
       // flat corner. It is defined at corners; nodes on edges have no angle.
@@ -82,7 +90,7 @@ Quality shapes(const Mesh& mesh, bool of_section) {
           std::min(q.least_scaled_jacobian, lengths > 0 ? J.determinant() / lengths : 0);
     }
     for (int g = 0; g < cell.n_gauss; ++g) {
-      const Mat3 J = X * cell.dN[static_cast<std::size_t>(g)];
+      const Mat3 J = jacobians.middleCols<3>(3 * (cell.n_nodes + g));
       const double det = J.determinant();
       notice(det, e, cell.gauss[g]);
       q.volume += cell.weight[g] * det;
@@ -99,6 +107,7 @@ Quality shapes(const Mesh& mesh, bool of_section) {
     q.shortest_edge = std::min(q.shortest_edge, shortest);
     q.longest_edge = std::max(q.longest_edge, longest);
   }
+  if (q.at_cell >= 0) q.at = position(mesh, q.at_cell, least_at);
   return q;
 }
 

@@ -15,14 +15,22 @@ struct Top {
   double y;
 };
 
-void add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, double x, double y,
-         double z) {
+// Returns the gap there.
+double add(std::optional<Footprint>& all, const Indenter& shape, const Vec3& u, double x, double y,
+           double z) {
   const double gap = shape_at(shape, Vec3(x, y, z) - u).gap;
-  if (!(gap < 0)) return;
+  if (!(gap < 0)) return gap;
   if (!all) all = Footprint{{x, z}, {x, z}, 0};
   all->low = {std::min(all->low[0], x), std::min(all->low[1], z)};
   all->high = {std::max(all->high[0], x), std::max(all->high[1], z)};
   all->deepest = std::max(all->deepest, -gap);
+  return gap;
+}
+
+// A gap is a distance: how many of the next samples are too near to be inside.
+int outside_next(double gap, double spacing) {
+  if (!(gap > 0 && spacing > 0)) return 0;
+  return static_cast<int>(std::min(gap / spacing, 1e6));
 }
 
 // whether the line at this x (k = 0) or z comes inside, near what is known of the print
@@ -36,7 +44,9 @@ bool enters(const Indenter& shape, const Vec3& u, const Footprint& near, int k, 
     const double across =
         std::clamp(low + (high - low) * i / (4 * samples), top.low[other], top.high[other]);
     const Vec3 x = k == 0 ? Vec3(value, top.y, across) : Vec3(across, top.y, value);
-    if (shape_at(shape, x - u).gap < 0) return true;
+    const double gap = shape_at(shape, x - u).gap;
+    if (gap < 0) return true;
+    i += outside_next(gap, (high - low) / (4 * samples));
   }
   return false;
 }
@@ -54,8 +64,10 @@ std::optional<Footprint> print_of(const Indenter& shape, const Vec3& u, const To
   const auto at = [&](int k, int i) {
     return top.low[k] + (top.high[k] - top.low[k]) * i / samples;
   };
+  const double spacing = (top.high[1] - top.low[1]) / samples;
   for (int i = 0; i <= samples; ++i)
-    for (int j = 0; j <= samples; ++j) add(found, shape, u, at(0, i), top.y, at(1, j));
+    for (int j = 0; j <= samples; ++j)
+      j += outside_next(add(found, shape, u, at(0, i), top.y, at(1, j)), spacing);
   if (!found) return found;
   for (int k : {0, 1, 0, 1})
     for (double* end : {&found->low[k], &found->high[k]}) {
