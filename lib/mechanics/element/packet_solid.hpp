@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/tensor/packet.hpp"
@@ -54,6 +55,11 @@ void packet_solid(Formulation formulation, const Material& material, const Packe
                   const PacketGeometry& geometry, const PacketFibre* fibres, const Packet* u,
                   const Packet* p_tangent, bool with_tangent, PacketElement& out,
                   const PacketMemory* memory = nullptr);
+
+// Isochoric Kirchhoff stress of eight points of one material with the same fibre directions; F by
+// rows, tau in the order of voigt.hpp.
+void packet_stress(const Material& material, const Packet F[9], const Packet& J,
+                   std::span<const Vec3> a, Packet tau[6]);
 
 // J - 1 at each Gauss point of displaced elements
 void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet* J_minus_1);

@@ -6,6 +6,7 @@
 #include "core/tensor/kinematics.hpp"
 #include "core/tensor/voigt.hpp"
 #include "mechanics/element/dilatation.hpp"
+#include "mechanics/element/packet_solid.hpp"
 #include "mechanics/element/point_kinematics.hpp"
 
 namespace langer {
@@ -153,6 +154,37 @@ bool solid(Formulation formulation, const Material& material, double local,
   return done;
 }
 
+namespace {
+
+// Cauchy stress without pressure; eight points at once where the material has such a form.
+void add_isochoric_stress(const Material& material, std::span<const Vec3> a,
+                          std::vector<GaussState>& states) {
+  if (!packet_form(material)) {
+    for (GaussState& s : states) {
+      const Vec6 S = isochoric(material, s.F.transpose() * s.F, a, false).S;
+      s.sigma = s.F * tensor(S) * s.F.transpose() / s.J;
+    }
+    return;
+  }
+  for (std::size_t first = 0; first < states.size(); first += Packet::lanes) {
+    Packet F[9], J, tau[6];
+    for (std::size_t l = 0; l < Packet::lanes; ++l) {
+      const GaussState& s = states[std::min(first + l, states.size() - 1)];
+      J.set(static_cast<int>(l), s.J);
+      for (int i = 0; i < 9; ++i) F[i].set(static_cast<int>(l), s.F(i / 3, i % 3));
+    }
+    packet_stress(material, F, J, a, tau);
+    for (std::size_t l = 0; l < Packet::lanes && first + l < states.size(); ++l) {
+      GaussState& s = states[first + l];
+      Vec6 stress;
+      for (int p = 0; p < 6; ++p) stress[p] = tau[p][static_cast<int>(l)] / s.J;
+      s.sigma = tensor(stress);
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<GaussState> gauss_states(Formulation formulation, const Material& material,
                                      const ElementGeometry& geometry, std::span<const Vec3> a,
                                      const ElementNodes& u, std::span<const Vec6> branches) {
@@ -172,12 +204,13 @@ std::vector<GaussState> gauss_states(Formulation formulation, const Material& ma
   }
   std::array<double, n_modes> p{};
   if (modal) pressures(material.volume, true, geometry, n_p, t.data(), p.data());
+  add_isochoric_stress(material, a, states);
   for (int g = 0; g < n_gauss; ++g) {
     GaussState& s = states[g];
     for (int k = 0; k < n_p && modal; ++k) s.pressure += dilatation_mode(geometry, g, k) * p[k];
-    Vec6 S = isochoric(material, s.F.transpose() * s.F, a, false).S;
-    if (!branches.empty()) S += branches[static_cast<std::size_t>(g)];
-    s.sigma = s.F * tensor(S) * s.F.transpose() / s.J + s.pressure * Mat3::Identity();
+    if (!branches.empty())
+      s.sigma += s.F * tensor(branches[static_cast<std::size_t>(g)]) * s.F.transpose() / s.J;
+    s.sigma += s.pressure * Mat3::Identity();
   }
   return states;
 }
