@@ -96,7 +96,7 @@ class OldTangent {
 }  // namespace
 
 SolveReport newton(const Problem& problem, VecX& x, const NewtonOptions& options) {
-  double strict = 1e-3;
+  double strict = 1e-2;
   if (options.relative > NewtonOptions{}.relative) strict = 1;
   const double absolute = options.absolute.value_or(problem.least_force);
   SolveReport report;
