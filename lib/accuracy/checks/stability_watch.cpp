@@ -128,10 +128,10 @@ double StabilityWatch::stiffest_of_lowest(const Assembler& body, const BodyState
   return stiffness[refined - 1];
 }
 
-StabilityReport StabilityWatch::look(const Assembler& body, Increment& increment) {
+StabilityReport StabilityWatch::look(const Assembler& body, Increment& increment, double within) {
   std::optional<Signature> signature;
   if (!signs_) signs_ = !increment.iterative();
-  if (*signs_) signature = increment.signature();
+  if (*signs_) signature = increment.signature(within);
   return look(body, increment.accepted(), increment.reactions(), !increment.contacts().empty(),
               signature);
 }

@@ -70,9 +70,10 @@ class StabilityWatch {
   explicit StabilityWatch(StudyRecord study, Reach reach = Reach::whole_body)
       : study_(std::move(study)), reach_(reach) {}
   void resume(const StepRecord& last);
-  // the accepted state, right after accept(); known: its signature, where it follows without a
-  // factorization
-  StabilityReport look(const Assembler& body, Increment& increment);
+  // the accepted state, right after accept(); within: TangentSigns::signature(); known: its
+  // signature, where it follows without a factorization
+  StabilityReport look(const Assembler& body, Increment& increment,
+                       double within = TangentSigns::nearly_there);
   StabilityReport look(const Assembler& body, const BodyState& state, const VecX& reactions,
                        bool contacts, std::optional<Signature> signature);
   void add_to(StepRecord& record, const StabilityReport& report) const;

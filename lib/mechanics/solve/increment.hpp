@@ -96,7 +96,9 @@ class Increment {
   std::vector<double> surface_penetrations() const;
   const RigidContact* controlled() const { return state_.controlled(); }
   // Stability of the accepted state (solve/tangent_signs.hpp).
-  Signature signature() { return signs_.signature(); }
+  Signature signature(double within = TangentSigns::nearly_there) {
+    return signs_.signature(within);
+  }
   Signature signature_under(std::span<OtherTangent> others,
                             std::vector<std::unique_ptr<LinearSolver>>& solvers) {
     return signs_.signature_under(others, solvers);

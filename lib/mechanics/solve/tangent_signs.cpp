@@ -111,14 +111,14 @@ std::vector<int> order_of(const Dofs& own, const std::vector<int>& own_order, co
 }  // namespace
 
 // Contact in the tangent itself: it is positive definite, or its negative pivots are counted.
-Signature TangentSigns::signature_with_contact() {
+Signature TangentSigns::signature_with_contact(double within) {
   const double moved = (now_.u - before_.u).lpNorm<Eigen::Infinity>();
   std::vector<std::vector<ContactStatus>> status;
   for (ContactDefect& defect : state_.defects()) status.push_back(std::move(defect.status));
   ContactInTangent& contact = *factors_.factor.in_tangent();
   const bool recent = factors_.factor.kind() != TangentFactor::Kind::none &&
                       factors_.factored_at.size() == now_.u.size() &&
-                      (now_.u - factors_.factored_at).lpNorm<Eigen::Infinity>() <= 0.02 * moved;
+                      (now_.u - factors_.factored_at).lpNorm<Eigen::Infinity>() <= within * moved;
   if (recent && factors_.factor.kind() == TangentFactor::Kind::whole && contact.factored(status))
     return {};
   factors_.update_tangent();
@@ -167,12 +167,13 @@ Signature TangentSigns::signs_on_candidates(MatX S,
   return signs(used.transpose() * (S * used), supported);
 }
 
-Signature TangentSigns::signature() {
-  if (factors_.contact_in_tangent()) return signature_with_contact();
+Signature TangentSigns::signature(double within) {
+  if (factors_.contact_in_tangent()) return signature_with_contact(within);
   const bool touched = !state_.contacts.empty();
   if (state_.options.signs_from_cells && !touched && every_cell_resists(body_, now_.u)) return {};
   using Kind = TangentFactor::Kind;
-  factors_.update_of_accepted(0.02);
+  if (factors_.factor.kind() != Kind::whole) within = std::min(within, nearly_there);
+  factors_.update_of_accepted(within);
   const Kind kind = factors_.factor.kind();
   if (kind == Kind::whole && !touched) return {};
   const std::vector<NodeContact> contacts = node_contacts(state_);

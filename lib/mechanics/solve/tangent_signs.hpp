@@ -44,10 +44,11 @@ class TangentSigns {
         border_(border),
         factors_(factors) {}
 
-  // Of the accepted state, right after accept(). The last factor serves where it was made within a
-  // fiftieth of the step's movement from there; otherwise K is factorized once more. Not where the
-  // solution is iterative, which has no signs to show.
-  Signature signature();
+  // Of the accepted state, right after accept(). The last factor serves where it was made within
+  // that share of the step's movement from there, and is positive definite; otherwise K is
+  // factorized once more. Not where the solution is iterative, which has no signs to show.
+  static constexpr double nearly_there = 0.02;
+  Signature signature(double within = nearly_there);
   // The same of the accepted state for other constraints than those of the equilibrium, summed over
   // them: one factorization each, by the solvers that are kept for the next state.
   Signature signature_under(std::span<OtherTangent> others,
@@ -64,7 +65,7 @@ class TangentSigns {
   // Assembles them and factorizes one after the other: true of those that are positive definite.
   std::vector<bool> factorize_under(std::span<OtherTangent> others,
                                     std::vector<std::unique_ptr<LinearSolver>>& solvers);
-  Signature signature_with_contact();
+  Signature signature_with_contact(double within);
   Signature signs_on_candidates(MatX S, const std::vector<NodeContact>& contacts) const;
   int held_by_volumes(int negative);
 
