@@ -26,6 +26,8 @@ bench-forecasts: build
 	@mkdir -p runs/forecasts
 	@tests/bench/forecasts $(build)/bin | tee runs/forecasts/table.md
 	@tests/soak/page docs/solver_cost.md forecasts runs/forecasts/table.md
+	@tests/bench/forecast_pipelines.py $(build)/bin runs/forecasts/pipelines.csv | tee runs/forecasts/pipelines.md
+	@tests/soak/page docs/solver_cost.md forecast_pipelines runs/forecasts/pipelines.md
 
 # what contact costs over its candidates, condensed, in the tangent and iteratively, and its table and picture in docs/solver_cost.md; two minutes of CPU
 bench-wide: build

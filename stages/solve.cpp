@@ -10,6 +10,7 @@
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
 #include "core/base/interrupt.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/hdf5/seal.hpp"
 #include "identification/inverse/uncertainty.hpp"
 #include "results/store/step_journal.hpp"
@@ -187,9 +188,11 @@ std::optional<StageResults> solve_model(const Case& input, ModelChoice& model) {
   config.estimate = estimate_of(job.voice(), config, input.material, job.where, run);
   RunWatch watch(run, config, job.where, input.study);
   if (branch) watch.know(branch->bifurcation);
-  if (job.dry_run)
-    return report_forecast(job.voice(), config, input.material, job.where, run, watch,
+  if (job.dry_run) {
+    const double spent = cpu_seconds() - model.seconds_of_forecasts();
+    return report_forecast(job.voice(), config, input.material, job.where, run, watch, spent,
                            model.seconds_of_cuts(run));
+  }
 
   Observers observers(run, config, std::move(loose));
   observers.prepare(input, config, run, watch);

@@ -12,6 +12,7 @@
 #include "accuracy/checks/run_watch.hpp"
 #include "accuracy/estimate/report_errors.hpp"
 #include "accuracy/refinement/model_choice.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
 #include "mechanics/contact/outline.hpp"
 #include "mechanics/mesh/raise.hpp"
@@ -228,6 +229,7 @@ Json loads_view(const SolveConfig& config) {
 std::vector<Summary> forecast(const SolveInputs& inputs, ModelChoice& model, Mesh mesh,
                               const std::optional<Material>& material, const Where& where) {
   const Voice voice{"solve", false, false};
+  const double begun = cpu_seconds();
   SolveConfig config = model.config();
   Run run(std::move(mesh), config, material, where, model.at_a_point());
   held_by_contact(voice, run, where);
@@ -236,7 +238,7 @@ std::vector<Summary> forecast(const SolveInputs& inputs, ModelChoice& model, Mes
   StudyRecord study;
   if (!inputs.material_file.empty()) study = study_from(inputs.material_file);
   RunWatch watch(run, config, where, study);
-  return report_forecast(voice, config, material, where, run, watch);
+  return report_forecast(voice, config, material, where, run, watch, cpu_seconds() - begun);
 }
 
 }  // namespace

@@ -134,11 +134,11 @@ void report_results(const Voice& voice, const SolveConfig& config, const Run& ru
 std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,
                                      const std::optional<Material>& material,
                                      const Run::Where& where, Run& run, const RunWatch& watch,
-                                     double finer) {
+                                     double spent, double finer) {
   const double estimate = finer + estimate_forecast(config, material, where, run);
   MeshChecks checks = forecast_of_mesh(run, watch.of_mesh(), config.stability);
   checks.signatures = watch.signatures_at_each_step();
-  return dry_run(config, run.reduction.scene(), run.body, run.increment, checks, estimate,
+  return dry_run(config, run.reduction.scene(), run.body, run.increment, checks, estimate, spent,
                  voice.quiet);
 }
 

@@ -31,12 +31,12 @@ PathErrors report_errors(const Voice& voice, const SolveConfig& config,
 void report_results(const Voice& voice, const SolveConfig& config, const Run& run,
                     const StepRecord& last, const std::vector<ErrorEstimate>& estimates);
 
-// What a run and its estimate will take, said and as numbers (run/dry_run.hpp). finer: CPU seconds
-// of the meshes that follow this one
+// What a run and its estimate will take, said and as numbers (run/dry_run.hpp). spent: CPU seconds
+// that a run has needed when it gets here; finer: those of the meshes that follow this one
 std::vector<Summary> report_forecast(const Voice& voice, const SolveConfig& config,
                                      const std::optional<Material>& material,
                                      const Run::Where& where, Run& run, const RunWatch& watch,
-                                     double finer = 0);
+                                     double spent, double finer = 0);
 
 // of PathErrors::along, by their names in /history of a solution
 SolutionWriter::Histories histories_of(const PathErrors& estimate);

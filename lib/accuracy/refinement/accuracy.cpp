@@ -10,6 +10,7 @@
 #include "accuracy/refinement/adaptive_cells.hpp"
 #include "accuracy/refinement/constants.hpp"
 #include "accuracy/refinement/level_cost.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/base/text.hpp"
 #include "scene/model/supports.hpp"
 #include "scene/run/footprint.hpp"
@@ -379,6 +380,7 @@ Accuracy::Accuracy(const Voice& voice, const SolveConfig& config,
         "accuracy: the study has no scene of this kind; the error with these cells decides which ones it needs{}",
         dry ? " (not with --dry-run)" : "");
   if (begins_ && dry) {
+    const Stopwatch watch(seconds_of_forecasts_);
     const AccuracyLevel next = finest_at_once(*chosen_);
     voice_.say("accuracy: a next level, where these cells are not enough, takes up to {}",
                in_words(level_cost(with(next), material_, where_)));

@@ -120,6 +120,7 @@ class Accuracy {
 
   const SolveConfig& config() const { return config_; }  // to be solved
   bool cuts() const { return chosen_ && chosen_->cut; }  // cells, where the error comes from
+  double seconds_of_forecasts() const { return seconds_of_forecasts_; }  // of CPU, so far
   // Symmetry leaves this share of the cells to be solved: so many more may be tried.
   void solves_part(double share);
   // Whether to accept the solution, or to solve again with config() as it is then (a message says
@@ -166,8 +167,9 @@ class Accuracy {
   std::map<std::string, double> cells_before_;
   std::string stop_reason_;
   int without_estimate_ = 0;
-  double share_ = 1;     // of the cells that is solved, as `finest` of the level knows it
-  bool begins_ = false;  // with cells that no study and no estimate stands for
+  double share_ = 1;  // of the cells that is solved, as `finest` of the level knows it
+  double seconds_of_forecasts_ = 0;  // of CPU
+  bool begins_ = false;              // with cells that no study and no estimate stands for
 };
 
 }  // namespace langer

@@ -36,9 +36,10 @@ class ModelChoice {
   void leave_homogeneous_point();
 
   // CPU seconds that the meshes of cut cells will take after this one. The error of the first mesh
-  // decides, so `run` is solved if that is quick; 0 and a message where it is not. Less what that
-  // takes here: a forecast counts both the seconds so far and those of the first mesh.
+  // decides, so `run` is solved if that is quick; 0 and a message where it is not.
   double seconds_of_cuts(Run& run) const;
+  // CPU seconds that forecasts took so far, which a run does not need
+  double seconds_of_forecasts() const { return accuracy_.seconds_of_forecasts(); }
 
   // Marks errors whose limit is accurate enough while their value is not.
   void name_answers(std::vector<ErrorEstimate>& errors) const;

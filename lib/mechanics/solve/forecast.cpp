@@ -14,7 +14,9 @@ extern "C" void dgemm_(const char*, const char*, const int*, const int*, const i
 
 namespace langer {
 
-double multiplication_rate() {
+namespace {
+
+double measured_multiplication_rate() {
   constexpr int n = 500;
   const std::vector<double> a(n * n, 0.5), b(n * n, 0.25);
   std::vector<double> c(n * n, 0);
@@ -28,6 +30,13 @@ double multiplication_rate() {
   int products = 0;
   for (; now - start < 0.05; now = cpu_seconds(), ++products) multiply();
   return 2.0 * n * n * n * products / (now - start);
+}
+
+}  // namespace
+
+double multiplication_rate() {
+  static const double rate = measured_multiplication_rate();
+  return rate;
 }
 
 double forecast_bytes(const LinearSolver::Size& size) {
@@ -52,10 +61,10 @@ double most_covered(const Mesh& mesh, const std::vector<RigidContact>& contacts,
   return most;
 }
 
-// small supernodes and the scatter between them: 0.24 of the product's rate at 0.2 GFLOP, 0.51 at
-// 7, 0.77 at 600
+// small supernodes and the scatter between them: 0.3 of the product's rate at 0.1 GFLOP, 0.51 at
+// 7, 0.74 at 600
 double efficiency(double flops) {
-  return std::clamp(0.385 + 0.062 * std::log(std::max(1e-9 * flops, 1e-9)), 0.15, 0.85);
+  return std::clamp(0.42 + 0.05 * std::log(std::max(1e-9 * flops, 1e-9)), 0.15, 0.85);
 }
 
 void with_factor(double rate, Forecast& out) {
@@ -64,9 +73,34 @@ void with_factor(double rate, Forecast& out) {
   out.solving = 2 * 8 * out.size.factor_nonzeros / 10e9;
 }
 
-// Bonds let go one ring of candidates after the other, in increments that are cut back: measured on
-// pull_off (76 steps, 1551 + 549 iterations) and pull_off_thin (75, 1575 + 613), of 10 steps each.
-void with_bonds(Forecast& out) {
+// The distance from the first candidate to the nearest other one [mm].
+double spacing(const Mesh& mesh, const RigidContact& contact) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < contact.nodes.size(); ++i)
+    least = std::min(least, (mesh.X[contact.nodes[i]] - mesh.X[contact.nodes[0]]).norm());
+  return least;
+}
+
+// Whether a bond is stiffer than what it pulls at. Then bonds let go one ring of candidates after
+// the other, each in a jump; softer ones let go in few jumps.
+bool jumps_by_rings(const Assembler& body, const std::vector<RigidContact>& contacts) {
+  constexpr double stiff = 0.4;  // 0.15 and 0.3: few jumps; 0.48 and 0.6: many (pull_off)
+  const double mu = shear_modulus(body.material(0));
+  return std::ranges::any_of(contacts, [&](const RigidContact& contact) {
+    return contact.adhesion &&
+           contact.adhesion->stiffness * spacing(body.mesh(), contact) > stiff * mu;
+  });
+}
+
+// In increments that are cut back: measured on pull_off and pull_off_thin, of 10 steps each. With
+// many jumps 75 steps and 1560 + 580 iterations, with few 24 and 90 + 70.
+void with_bonds(bool by_rings, Forecast& out) {
+  if (!by_rings) {
+    out.steps = static_cast<int>(2.6 * out.steps);
+    out.iterations = 5.0 * out.steps;
+    out.again = 3.0 * out.steps;
+    return;
+  }
   out.steps = static_cast<int>(7.5 * out.steps);
   out.iterations = 21.0 * out.steps;
   out.again = 8.0 * out.steps;
@@ -90,16 +124,26 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
   out.size = size;
   const VecX rest = VecX::Zero(body.dofs().n);
   body.assemble(rest, true);
-  double start = cpu_seconds();
-  body.assemble(rest, true);
-  // a step assembles once more than it iterates
-  out.assembly = 1.3 * (cpu_seconds() - start);
+  const auto least_seconds = [&](bool with_tangent) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2; ++i) {  // the caches may be cold before
+      const double start = cpu_seconds();
+      body.assemble(rest, with_tangent);
+      least = std::min(least, cpu_seconds() - start);
+    }
+    return least;
+  };
+  const double forces = least_seconds(false);
+  out.forces = 1.5 * forces;  // with the pressures, and the volumes before a step is taken
+  out.assembly = least_seconds(true) + forces;
   out.bytes = forecast_bytes(size);
   const double rate = multiplication_rate();
   if (by.mixed)
     without_factor(*by.mixed, !contacts.empty(), rate, out);
   else
     with_factor(rate, out);
+  // Their stiffness has a skew part, which is evaluated for each of some more solutions: measured.
+  if (body.loads().follow()) out.assembly *= 2.5;
   const double covered = most_covered(body.mesh(), contacts, stops);
   if (by.mixed) {
     out.bytes += 8 * out.size.nonzeros;  // the tangent in the candidates' axes
@@ -146,18 +190,22 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
     double per_decade = 1.1;
     if (friction && decades > 0) per_decade = 3.5;
     if (reuses) {
-      out.iterations += std::clamp(2.4 + per_decade * decades, 1.3, friction ? 4.0 : 2.6);
+      out.iterations +=
+          std::clamp((friction ? 2.4 : 2.0) + per_decade * decades, 1.3, friction ? 4.0 : 2.6);
     } else {
       out.iterations += std::clamp(3.7 + 1.4 * decades, 2.3, 4.0) + (by.mixed ? 1.5 : 0);
     }
-    out.again += reuses ? 7 : 0;
+    if (reuses && contacts.empty())  // measured on tension, suction and twist
+      out.again += std::clamp(4.5 + 2.5 * decades, 2.0, 7.0);
+    else if (reuses)
+      out.again += friction ? 7 : 5.5;
     return true;
   };
   out.steps = load_path(path, 0, {}, stops, attempt, accepted).steps;
   out.bonds = std::any_of(contacts.begin(), contacts.end(),
                           [](const RigidContact& c) { return c.adhesion.has_value(); });
-  if (out.bonds) with_bonds(out);
-  out.files = 0.01 + out.steps * (2e-3 + 1.5e-7 * body.mesh().n_nodes());
+  if (out.bonds) with_bonds(jumps_by_rings(body, contacts), out);
+  out.files = 0.01 + out.steps * (1.8e-3 + 1.5e-7 * body.mesh().n_nodes());
   return out;
 }
 
@@ -170,7 +218,7 @@ MeshChecks forecast_of_mesh(Assembler& mesh, const LinearSolver::Size& size, con
   out.assembly = cpu_seconds() - start;
   // a step is balanced when it is examined and when it is written, and twice more at the beginning
   out.seconds = (2 * n_steps + 4) * out.assembly;
-  out.seconds += n_steps * (2e-3 + 3e-7 * mesh.mesh().n_nodes());
+  out.seconds += n_steps * 3e-7 * mesh.mesh().n_nodes();
   if (n_examined == 0) return out;
 
   // strong ellipticity in all Gauss points, from some of the cells

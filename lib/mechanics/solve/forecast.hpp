@@ -22,6 +22,7 @@ struct Forecast {
   double bytes = 0;  // largest memory of the whole run
   double assembly = 0, factor = 0,
          solving = 0;  // CPU seconds per iteration, one thread; factor: or what stands in its place
+  double forces = 0;   // CPU seconds of the assembly in a correction without a new tangent
   int steps = 0;       // if none is cut back
   double iterations = 0;  // about; each with a tangent
   double again = 0;       // corrections with their tangents
@@ -30,8 +31,7 @@ struct Forecast {
   bool bonds = false;     // increments are short while bonds of an adhesion let go
   double per_iteration() const { return assembly + factor + solving; }
   double seconds() const {
-    return iterations * (per_iteration() + contact) + again * (0.4 * assembly + solving + contact) +
-           files;
+    return iterations * (per_iteration() + contact) + again * (forces + solving + contact) + files;
   }
 };
 
@@ -69,6 +69,7 @@ struct MeshChecks {
 MeshChecks forecast_of_mesh(Assembler& mesh, const LinearSolver::Size& size, const VecX& u,
                             int n_steps, int n_examined);
 
-double multiplication_rate();  // flops per CPU second of a dense matrix product on one thread
+// flops per CPU second of a dense matrix product on one thread, measured at the first call
+double multiplication_rate();
 
 }  // namespace langer

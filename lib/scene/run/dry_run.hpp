@@ -35,10 +35,10 @@ Forecast forecast_of(const SolveConfig& config, const std::optional<Material>& m
 MeshChecks forecast_of_mesh(Run& run, const Increment* examined, StabilityCheck when);
 
 // Says on stderr which parts the scene has, their sizes, memory and time; returns the numbers.
-// estimate: seconds that the estimate of its errors takes, 0 where none is wanted; checks: of the
-// mesh that the body stands for
+// estimate: seconds that the estimate of its errors takes, 0 where none is wanted; spent: CPU
+// seconds that a run has needed when it gets here; checks: of the mesh that the body stands for
 std::vector<Summary> dry_run(const SolveConfig& config, const Scene& scene, Assembler& body,
                              const Increment& increment, const MeshChecks& checks, double estimate,
-                             bool quiet);
+                             double spent, bool quiet);
 
 }  // namespace langer
