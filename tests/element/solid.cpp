@@ -10,6 +10,7 @@
 #include "core/tensor/dense.hpp"
 #include "core/tensor/stress.hpp"
 #include "mechanics/assembly/assembler.hpp"
+#include "mechanics/element/packet_solid.hpp"
 #include "support/block.hpp"
 #include "support/directions.hpp"
 #include "support/laws.hpp"
@@ -221,6 +222,25 @@ TEST_CASE("a constant deformation gradient is reproduced on a distorted mesh: th
       for (const GaussState& g : gauss_states(formulation, material, body.geometry(e),
                                               body.fibres(e), body.element_displacements(u, e)))
         CHECK((g.sigma - sigma).norm() < 1e-11 * sigma.norm());
+  }
+}
+
+TEST_CASE("stresses of eight points at once are those of each point") {
+  for (const auto& [n, formulation] : kinds) {
+    const One one = distorted(n, 1e-2);
+    const ElementNodes u = some_displacement(n, 5);
+    Material without_packets = one.material;
+    without_packets.matrix = {MooneyRivlin{0.1, 0.05}};
+    CHECK(packet_form(one.material));
+    CHECK_FALSE(packet_form(without_packets));
+    for (const Material& material : {one.material, without_packets}) {
+      for (const GaussState& s : gauss_states(formulation, material, one.geometry, one.a, u)) {
+        const Vec6 S = isochoric(material, s.F.transpose() * s.F, one.a, false).S;
+        const Mat3 expected = s.F * tensor(S) * s.F.transpose() / s.J;
+        CHECK((s.sigma - s.pressure * Mat3::Identity() - expected).norm() <=
+              1e-12 * s.sigma.norm());
+      }
+    }
   }
 }
 

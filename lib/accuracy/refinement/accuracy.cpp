@@ -302,6 +302,8 @@ std::optional<ChosenLevel> choose_accuracy(SolveConfig& config,
   chosen.met = chosen.shown && chosen.level.error <= chosen.wanted;
   if (!plain && !has_friction(config))
     chosen.level.step = coarsest.step;  // the force does not depend on the path
+  if (elastic && config.contacts.empty())
+    chosen.level.step = std::max(coarsest.step, written.path.largest_increment());
   // what relaxes wants the cells of what does not
   if (!elastic && has_friction(config) && level != levels.end() &&
       of_the_studys_kind(config, print))
