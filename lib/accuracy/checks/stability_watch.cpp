@@ -106,6 +106,10 @@ std::string in_words(const StabilityReport& r) {
 
 void StabilityWatch::resume(const StepRecord& last) {
   t_before_ = -1;  // the next step is compared with this one from its record
+  // All steps of a file have the same names: those of one hexahedron that stands for the body, and
+  // of the reduced body after them.
+  if (last.scalars.contains("negative_eigenvalues"))
+    says_which_signs_ = last.scalars.contains("signs_of_whole_body");
   if (const auto found = last.scalars.find("driving_force"); found != last.scalars.end()) {
     force_before_ = found->second;
     t_before_ = last.t;
@@ -226,7 +230,9 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   auto& s = record.scalars;
   if (r.signature) {
     s["negative_eigenvalues"] = r.negative_eigenvalues();
-    if (reach_ != Reach::whole_body) s["signs_of_whole_body"] = r.breaking ? 1 : 0;
+    const bool reduced = reach_ != Reach::whole_body;
+    if (says_which_signs_.value_or(reduced))
+      s["signs_of_whole_body"] = r.breaking || !reduced ? 1 : 0;
   }
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;

@@ -96,6 +96,7 @@ class StabilityWatch {
   };
   StudyRecord study_;
   Reach reach_;
+  std::optional<bool> says_which_signs_;  // as the steps do that a run continues
   double force_before_ = 0, t_before_ = -1;
   StabilityReport last_;
   std::set<int> lowest_cells_;  // of the last step

@@ -59,9 +59,9 @@ void LinearSolver::eliminate_last(std::vector<int> last) {
   if (!s.L) throw std::bad_alloc();
 }
 
-// CHOLMOD's nested dissection, with separators by METIS, orders the rows for small fill. Its factors
-// need some 5 to 10 % less work than those of METIS's own ordering. order_last() then moves the rows
-// of `last` to the end.
+// CHOLMOD's nested dissection, with separators by METIS, orders the rows for small fill. Factors
+// take 5 to 10 % less work than in METIS's own order. order_last() then moves the rows of `last` to
+// the end.
 void LinearSolver::State::analyse() {
   const NoNestedThreads guard;
   common.method[0].ordering = CHOLMOD_NESDIS;

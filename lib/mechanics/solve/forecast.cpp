@@ -187,18 +187,24 @@ Forecast forecast(Assembler& body, const LinearSolver::Size& size,
       return true;
     }
     const double decades = std::log10(taken / 0.1);
+    double usual = 2.0;
+    double most = 2.6;
+    double again = 5.5;
     double per_decade = 1.1;
-    if (friction && decades > 0) per_decade = 3.5;
+    if (friction) {
+      usual = 2.4;
+      most = 4.0;
+      again = 7;
+      if (decades > 0) per_decade = 3.5;
+    }
+    if (contacts.empty())  // measured on tension, suction and twist
+      again = std::clamp(4.5 + 2.5 * decades, 2.0, 7.0);
     if (reuses) {
-      out.iterations +=
-          std::clamp((friction ? 2.4 : 2.0) + per_decade * decades, 1.3, friction ? 4.0 : 2.6);
+      out.iterations += std::clamp(usual + per_decade * decades, 1.3, most);
+      out.again += again;
     } else {
       out.iterations += std::clamp(3.7 + 1.4 * decades, 2.3, 4.0) + (by.mixed ? 1.5 : 0);
     }
-    if (reuses && contacts.empty())  // measured on tension, suction and twist
-      out.again += std::clamp(4.5 + 2.5 * decades, 2.0, 7.0);
-    else if (reuses)
-      out.again += friction ? 7 : 5.5;
     return true;
   };
   out.steps = load_path(path, 0, {}, stops, attempt, accepted).steps;
