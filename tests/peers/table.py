@@ -75,7 +75,7 @@ set xlabel "CPU seconds, one thread"
 set ylabel "error of the force, %"
 set key outside right top
 set grid
-set xrange [0.1:500]
+set xrange [0.03:500]
 set yrange [0.02:20]
 set format y "%g"
 set format x "%g"
