@@ -184,9 +184,10 @@ std::string RunWatcher::progress(const std::string& project) {
   if (project_ != project || state_ == "none") return object({{"state", words("none")}}).text;
   std::string series;
   for (const auto& [name, one] : series_) {
-    if (one->points.empty()) continue;
+    const auto& points = one->points;
+    if (points.empty()) continue;
     const auto column = [&](double ProgressPoint::*value) {
-      return list(one->points, [&](const ProgressPoint& p) { return number(p.*value); });
+      return list(points, [&](const ProgressPoint& p) { return number(p.*value); });
     };
     append(series, ",",
            words(name).text + ":" +
