@@ -24,7 +24,7 @@ def cpu_seconds(command, folder):
     """of a command, and what it printed; nothing if it takes too long"""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
-        done = subprocess.run("exec " + command, shell=True, cwd=folder, capture_output=True, text=True, timeout=LIMIT)
+        done = subprocess.run("exec " + command, shell=True, cwd=folder, capture_output=True, text=True, timeout=LIMIT, check=True)
     except subprocess.TimeoutExpired:
         return None
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -51,12 +51,11 @@ def measure(programs, pipeline):
         command = first_solve(run)
         if command is None:
             return None
-        _, said = cpu_seconds(command + " --dry-run --json", run)
+        dry = cpu_seconds(command + " --dry-run --json", run)
         taken = cpu_seconds(command, run)
-        forecast = re.search(r'"cpu_s": ([0-9.e+-]+)', said)
-        if taken is None or forecast is None:
+        if dry is None or taken is None:
             return None
-        return float(forecast.group(1)), taken[0]
+        return float(re.search(r'"cpu_s": ([0-9.e+-]+)', dry[1]).group(1)), taken[0]
 
 
 def main():

@@ -126,9 +126,9 @@ std::optional<StabilityReport> RunWatch::report_of(const StepRecord& record) {
   if (mesh_) return report_of_point(record);
   // Where not every step is checked for all movements, the last tangent of the increment tells
   // enough of the others: extrapolation has put it near the state.
-  constexpr double of_this_increment = 0.5;
   const bool thoroughly = breaking_at(at_end_of_path(record.t));
-  const double within = thoroughly ? TangentSigns::nearly_there : of_this_increment;
+  double within = 0.5;
+  if (thoroughly) within = TangentSigns::nearly_there;
   StabilityReport report = stability_.look(run_.body, run_.increment, within);
   report.t = record.t;  // not that of the loads, where their factor is a result
   if (!thoroughly) return report;

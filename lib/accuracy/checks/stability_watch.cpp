@@ -231,8 +231,8 @@ void StabilityWatch::add_to(StepRecord& record, const StabilityReport& r) const 
   if (r.signature) {
     s["negative_eigenvalues"] = r.negative_eigenvalues();
     const bool reduced = reach_ != Reach::whole_body;
-    if (says_which_signs_.value_or(reduced))
-      s["signs_of_whole_body"] = r.breaking || !reduced ? 1 : 0;
+    const bool of_whole_body = !reduced || r.breaking;
+    if (says_which_signs_.value_or(reduced)) s["signs_of_whole_body"] = of_whole_body;
   }
   s["shear_stiffness_min"] = std::isfinite(r.stiffness) ? r.stiffness : -1e300;
   s["weakest_cell"] = r.cell;

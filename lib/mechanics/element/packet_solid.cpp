@@ -28,12 +28,6 @@ P dilatation(const P* H) {
   return (H[0] + H[4] + H[8]) + i2 + (H[0] * c0 + H[1] * c1 + H[2] * c2);
 }
 
-//   dev t
-void deviator(const P* t, P* d) {
-  const P mean = (t[0] + t[1] + t[2]) * (1.0 / 3);
-  for (int p = 0; p < 6; ++p) d[p] = p < 3 ? t[p] - mean : t[p];
-}
-
 // What the law gives at one Gauss point, in the deformed state; components in the order of
 // voigt.hpp.
 struct Spatial {
@@ -62,6 +56,10 @@ struct Times {
 template <class Factors>
 void law(const Material& material, const P* F, const P& J, const PacketFibre* fibres,
          const Factors& factors, Spatial& out) {
+  const auto deviator = [](const P* h, P* d) {
+    const P mean = (h[0] + h[1] + h[2]) * (1.0 / 3);
+    for (int p = 0; p < 6; ++p) d[p] = p < 3 ? h[p] - mean : h[p];
+  };
   const SpatialState state(F, J, [&](std::size_t k, int i) { return fibres[k].a[i]; });
   P dW{}, ddW{}, sum[6];
   matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) {
@@ -346,15 +344,12 @@ PacketGeometry packed(const ElementGeometry* const geometry[P::lanes]) {
 
 void packet_stress(const Material& material, const Packet F[9], const Packet& J,
                    std::span<const Vec3> a, Packet tau[6]) {
-  const SpatialState state(F, J, [&](std::size_t k, int i) { return P(a[k][i]); });
-  P dW{};
-  P sum[6];
-  matrix_terms<P>(material, state, [&](OfI1, const Energy<P>& e) { dW += e.dW; });
-  for (int p = 0; p < 6; ++p) sum[p] = 2.0 * dW * state.b[p];
-  fibre_terms<P>(material, state, [&](const auto& family, const Energy<P>& e) {
-    for (int p = 0; p < 6; ++p) sum[p] += 2.0 * e.dW * family.h[p];
-  });
-  deviator(sum, tau);
+  std::vector<PacketFibre> fibres(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (int i = 0; i < 3; ++i) fibres[k].a[i] = a[k][i];
+  Spatial s;
+  law(material, F, J, fibres.data(), AsTheyAre{}, s);
+  std::copy(s.tau, s.tau + 6, tau);
 }
 
 void packet_dilatations(const PacketGeometry& geometry, const Packet* u, Packet* J_minus_1) {

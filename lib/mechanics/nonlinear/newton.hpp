@@ -16,7 +16,7 @@
 // Modified Newton: a new tangent costs `cost_ratio` corrections with an old one. The old one is
 // kept while its linear convergence reaches the end sooner. What it leaves is as large as the
 // residual shows, whereas a new tangent would have squared it. Such a solution therefore has to
-// reach a thousandth of the usual tolerance, unless the user set a wider one.
+// reach a hundredth of the usual tolerance, unless the user set a wider one.
 #pragma once
 
 #include <functional>

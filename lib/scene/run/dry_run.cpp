@@ -83,9 +83,11 @@ Forecast forecast_of(const SolveConfig& config, Assembler& body, const Increment
   by.mixed = increment.mixed();
   by.in_motion = config.in_motion();
   by.surfaces = seconds_of_surfaces(increment, by.in_motion);
-  for (const SurfaceContact& surface : increment.surfaces())
-    by.surface_nodes +=
-        (surface.touches_itself() ? 0.3 : 1.0) * static_cast<double>(surface.all_nodes.size());
+  for (const SurfaceContact& surface : increment.surfaces()) {
+    double touching = 1;  // share of the nodes at once
+    if (surface.touches_itself()) touching = 0.3;
+    by.surface_nodes += touching * static_cast<double>(surface.all_nodes.size());
+  }
   LoadPathOptions path = config.path;
   if (scene.motion_step) path = motion_path(scene, path);
   Forecast out = forecast(body, increment.size(), increment.contacts(), path, scene.stops, by);
