@@ -11,8 +11,9 @@
 // follows from the state at its beginning alone, so that an interrupted path goes on with the same
 // digits, and it does not depend on how many nodes the set has that are never near.
 //
-// What a level leaves out is not lost: every linear step looks at all candidates
-// (contact_linearisation.cpp), and takes a higher level where one might close.
+// What a level leaves out is not lost: every linear step looks at all candidates where they are
+// (contact_linearisation.cpp), and takes a higher level where one might close. A candidate that a
+// step brings inside the indenter violates the contact law, and another step follows.
 #pragma once
 
 #include <vector>

@@ -32,7 +32,8 @@ struct ContactChange {
   std::optional<int> level = {};
 };
 
-// move: of a node without any change of reaction [mm]. Nothing where no finite answer is found.
+// move: of a node without any change of reaction [mm], zero for those that the factor does not keep
+// apart. Nothing where no finite answer is found.
 using MoveOfNode = std::function<Vec3(int node)>;
 std::optional<ContactChange> linearised_contact(const ContactState& state,
                                                 const TangentFactor& factor,

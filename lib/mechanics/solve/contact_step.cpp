@@ -174,18 +174,14 @@ VecX ContactStep::solve_near_factor(const VecX& known, double accurate) {
 std::optional<ContactChange> ContactStep::change_of_contact(const VecX& rhs,
                                                             LinearSolver::Half& half) {
   LinearSolver& linear = factors_.factor.linear();
-  VecX free;  // movement of all rows, where candidates stand among them
   {
     const Stopwatch watch(state_.cost.solve);
     half = linear.start(rhs);
-    if (factors_.factor.leaves_out()) free = linear.finish(half, VecX::Zero(half.last.size()));
   }
   const auto move_of_node = [&](int node) {
     Vec3 d = Vec3::Zero();
     for (int j = 0; j < 3; ++j) {
-      const int dof = 3 * node + j;
-      const int row = free.size() > 0 ? body_.dofs().equation[dof] : factors_.factor.last_of(dof);
-      if (row >= 0) d[j] = free.size() > 0 ? free[row] : half.last[row];
+      if (const int row = factors_.factor.last_of(3 * node + j); row >= 0) d[j] = half.last[row];
     }
     return d;
   };

@@ -170,7 +170,7 @@ double FactorCache::cost_ratio() const {
 }
 
 // The level of candidates with which an increment to t begins, from the state before it: those that
-// the indenter can reach. A linear step that reaches further takes a higher one.
+// the indenter can reach. A linear step that finds others within reach takes a higher one.
 int FactorCache::level_of_increment(const BodyState& from, double t, double last_travel) const {
   if (!factor.may_leave_out()) return factor.level();
   const std::vector<Vec3> begin = state_.indenters(from.t, from.travel);

@@ -48,8 +48,6 @@ class TangentFactor {
   const CandidateLevels& levels() const { return levels_; }
   int level() const { return level_; }
   void take_level(const Assembler& body, int level);
-  // whether candidates stand among the other rows
-  bool leaves_out() const { return !last_.empty() && level_ < levels_.all(); }
   bool may_leave_out() const {
     return !candidates_.empty() && !last_.empty() && springs_.loose == 0;
   }
