@@ -62,8 +62,7 @@ void Loads::each(double t, const Displacements& u, bool with_stiffness, const On
 
 // What the stiffness above leaves out. The follower stiffness of a single facet is not symmetric;
 // only its symmetric part is assembled, as the skew parts of neighbouring facets cancel. They
-// remain on the rim of the loaded surface. This is the exact change of force for du minus the
-// symmetric part of it.
+// remain on the rim of the loaded surface.
 void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
                       const OnRim& on) const {
   const ReferenceCell& cell = mesh_->cell();
@@ -74,12 +73,7 @@ void Loads::each_skew(double t, const Displacements& u, const Displacements& du,
       const ElementNodes dx = du(facet.cell);
       if (dx.isZero(0)) continue;
       const ElementNodes x = element_nodes(*mesh_, facet.cell) + u(facet.cell);
-      const MatX symmetric = follower_stiffness(cell, facet.local, x);
-      ElementNodes change = follower_pressure_change(cell, facet.local, x, dx);
-      for (int a : cell.facet[facet.local])
-        for (int b : cell.facet[facet.local])
-          change.row(a) -=
-              (symmetric.block<3, 3>(3 * a, 3 * b) * dx.row(b).transpose()).transpose();
+      const ElementNodes change = follower_skew_change(cell, facet.local, x, dx);
       on(facet.cell, pressure * share_of(facet.cell) * change);
     }
   }

@@ -26,8 +26,9 @@ ElementNodes follower_pressure(const ReferenceCell& cell, int facet, const Eleme
 // the rim of the facet: it cancels at edges that two loaded facets share, and vanishes where the
 // rim is held.
 MatX follower_stiffness(const ReferenceCell& cell, int facet, const ElementNodes& x);
-// df/dx dx, whole: what follower_pressure changes by to first order when its nodes move by dx [N]
-ElementNodes follower_pressure_change(const ReferenceCell& cell, int facet, const ElementNodes& x,
-                                      const ElementNodes& dx);
+// The skew part of df/dx times dx [N]: what follower_stiffness leaves of the change of
+// follower_pressure where the nodes move by dx.
+ElementNodes follower_skew_change(const ReferenceCell& cell, int facet, const ElementNodes& x,
+                                  const ElementNodes& dx);
 
 }  // namespace langer
