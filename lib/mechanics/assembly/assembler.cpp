@@ -245,12 +245,7 @@ VecX Assembler::load_forces(double t, const VecX& u) const {
 void Assembler::add_load_stiffness(int e, const MatX& stiffness, const VecX* du_prescribed) {
   const auto nodes = body_.nodes(e);
   const int n_nodes = body_.n_nodes();
-  for (int a = 0; a < n_nodes; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      const Mat3 K = stiffness.block<3, 3>(3 * a, 3 * b);
-      if (!K.isZero(0)) tangent_.add_block(e, a, b, K);
-    }
-  }
+  tangent_.add(e, stiffness);
   if (!du_prescribed) return;
   const ElementNodes du = body_.displacements(*du_prescribed, e);
   if (du.isZero(0)) return;

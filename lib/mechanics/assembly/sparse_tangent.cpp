@@ -1,18 +1,8 @@
 #include "mechanics/assembly/sparse_tangent.hpp"
 
-#include <algorithm>
+#include "mechanics/assembly/folded_cell.hpp"
 
 namespace langer {
-
-namespace {
-
-// Place of entry (i, j) of a symmetric element matrix, stored as its lower triangle row by row.
-int triangle_entry(int i, int j) {
-  if (i < j) return j * (j + 1) / 2 + i;
-  return i * (i + 1) / 2 + j;
-}
-
-}  // namespace
 
 SparseTangent::SparseTangent(const BodyModel& body,
                              const std::vector<ElementPackets::Block>& blocks)
@@ -112,66 +102,13 @@ void SparseTangent::add_free(int e, const PacketElement& element, int lane) {
   }
 }
 
-// The stiffness of an element with tied nodes, rotated to the nodes that they move with.
+// The stiffness of an element with tied nodes.
 void SparseTangent::add_tied(int e, const PacketElement& element, int lane) {
-  const auto nodes = body_.nodes(e);
-  const int* slot = pattern_.slots(e);
-  for (int a = 0; a < body_.n_nodes(); ++a) {
-    for (int b = 0; b <= a; ++b) {
-      Mat3 K;
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          K(i, j) = element.K[triangle_entry(3 * a + i, 3 * b + j)][lane];
-        }
-      }
-      const Image& row = body_.dofs().tie[nodes[a]];
-      const Image& column = body_.dofs().tie[nodes[b]];
-      K = row.T.transpose() * K * column.T;
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
-          const int at = slot[triangle_entry(3 * a + i, 3 * b + j)];
-          if (at >= 0) values_[at] += multiplicity(e, a, b, i, j) * K(i, j);
-        }
-      }
-    }
-  }
+  FoldedCell(pattern_, body_.dofs(), e, body_.nodes(e)).add(element, lane, values_);
 }
 
-void SparseTangent::add_block(int e, int a, int b, const Mat3& K) {
-  const bool tied = body_.tied(e);
-  Mat3 rotated = K;
-  if (tied) {
-    const auto nodes = body_.nodes(e);
-    const std::vector<Image>& tie = body_.dofs().tie;
-    rotated = tie[nodes[a]].T.transpose() * K * tie[nodes[b]].T;
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
-      const int at = position(e, 3 * a + i, 3 * b + j);
-      if (at >= 0) values_[at] += (tied ? multiplicity(e, a, b, i, j) : 1) * rotated(i, j);
-    }
-  }
-}
-
-// Two nodes that move with one: both halves of the symmetric matrix meet on its diagonal.
-int SparseTangent::multiplicity(int e, int a, int b, int i, int j) const {
-  const auto nodes = body_.nodes(e);
-  const std::vector<Image>& tie = body_.dofs().tie;
-  const bool meet = a != b && i == j && tie[nodes[a]].of == tie[nodes[b]].of;
-  return meet ? 2 : 1;
-}
-
-int SparseTangent::position(int e, int row, int column) const {
-  if (pattern_.scattered(e)) return pattern_.slots(e)[row * (row + 1) / 2 + column];
-  const int a = row / 3;
-  const int b = column / 3;
-  const int i = row % 3;
-  const int j = column % 3;
-  const int* at = pattern_.blocks(e) + 3 * (a * (a + 1) / 2 + b);
-  if (at[0] == Pattern::none) return Pattern::none;
-  if (a == b) return at[j] + i - j;
-  if (at[0] >= 0) return at[j] + i;
-  return Pattern::turned(at[i]) + j;
+void SparseTangent::add(int e, const MatX& stiffness) {
+  FoldedCell(pattern_, body_.dofs(), e, body_.nodes(e)).add(stiffness, values_);
 }
 
 void SparseTangent::add(const std::vector<double>& values) {

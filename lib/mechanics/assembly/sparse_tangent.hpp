@@ -26,8 +26,8 @@ class SparseTangent {
   void begin();
   // Adds the stiffness of element e from lane l.
   void add(int e, const PacketElement& element, int lane);
-  // Adds a 3 x 3 block of element e, of its nodes a >= b, to what is already there.
-  void add_block(int e, int a, int b, const Mat3& K);
+  // Adds to what is already there a symmetric stiffness of element e, (3 nodes, 3 nodes).
+  void add(int e, const MatX& stiffness);
 
   // Adds values in its pattern, (nnz).
   void add(const std::vector<double>& values);
@@ -38,10 +38,6 @@ class SparseTangent {
   void find_first_elements(const std::vector<ElementPackets::Block>& blocks);
   void add_free(int e, const PacketElement& element, int lane);
   void add_tied(int e, const PacketElement& element, int lane);
-  // Position in values() of an element's entry, row >= column; Pattern::none if it is prescribed.
-  int position(int e, int row, int column) const;
-  // How often an entry on the diagonal of a tied block counts: twice if both nodes move with one.
-  int multiplicity(int e, int a, int b, int i, int j) const;
 
   const BodyModel& body_;
   Pattern pattern_;
