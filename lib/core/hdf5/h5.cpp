@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,8 +22,17 @@
 
 namespace langer::h5 {
 
+// Rows of open datasets may still be in memory: what keeps them from the disk shows here.
+bool OpenFile::close() {
+  const hid_t open = std::exchange(id, -1);
+  if (open < 0) return false;
+  const bool flushed = !writing || H5Fflush(open, H5F_SCOPE_GLOBAL) >= 0;
+  growing.clear();
+  return H5Fclose(open) >= 0 && flushed;
+}
+
 OpenFile::~OpenFile() {
-  const bool closed = id >= 0 && H5Fclose(id) >= 0;
+  const bool closed = close();
   if (!writing) return;
   if (unfinished == Unfinished::discard)
     std::remove(current.c_str());
@@ -163,6 +173,7 @@ std::string read_text_attribute(hid_t object, const Group& group, const std::str
 
 bool Group::has(const std::string& name) const {
   if (!file_->writing) refuse_external(file_->id, *this, name, full(name));
+  if (file_->growing.contains(full(name))) return true;
   return H5Lexists(file_->id, full(name).c_str(), H5P_DEFAULT) > 0;
 }
 
@@ -356,9 +367,7 @@ void File::flush() const { written(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0, r
 
 // Close, seal, rename: a file has its name only once it is complete.
 void File::commit() {
-  const herr_t closed = H5Fclose(file_->id);
-  file_->id = -1;
-  written(closed >= 0, root(), "");
+  written(file_->close(), root(), "");
   append_seal(file_->current);
   rename_durably(file_->current, file_->path);
   file_->writing = false;

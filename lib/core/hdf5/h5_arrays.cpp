@@ -156,7 +156,17 @@ void Group::make_extendible(const std::string& name, const Shape& row, std::size
 // Extends the dataset first: a run that is stopped in between leaves blank rows, not missing ones.
 template <class T>
 void Group::append(const std::string& name, std::span<const T> rows) const {
-  const Handle dataset(H5Dopen2(file_->id, full(name).c_str(), H5P_DEFAULT), H5Dclose);
+  constexpr std::size_t few = 64;  // values; of longer rows a chunk would stay in memory
+  const std::string path = full(name);
+  auto& growing = file_->growing;
+  auto known = growing.find(path);
+  const bool is_open = known != growing.end();
+  Handle opened(is_open ? -1 : H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (opened.good() && rows.size() <= few) {
+    known = growing.emplace(path, std::move(opened)).first;
+  }
+  hid_t dataset = opened;
+  if (known != growing.end()) dataset = known->second;
   const auto before = shape_of(dataset);
   if (!before) refuse(name, "dataset is missing");
   Shape whole = *before;

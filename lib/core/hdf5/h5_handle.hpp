@@ -4,6 +4,8 @@
 #include <hdf5.h>
 
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include "core/hdf5/h5.hpp"
 
@@ -33,7 +35,11 @@ struct OpenFile {
   std::uintmax_t size = 0;
   bool writing = false;
   Unfinished unfinished = Unfinished::keep;
+  // Datasets that grow by few values at a time, by their paths. They stay open, since to open one
+  // takes longer than to write its row.
+  std::map<std::string, Handle> growing;
   ~OpenFile();
+  bool close();
 };
 
 Handle string_type(const std::string& text);
