@@ -56,6 +56,25 @@ TEST_CASE("arrays of every type and rank come back as written") {
   CHECK_THROWS_AS(r.group("nothing"), Failure);
 }
 
+TEST_CASE("a dataset grows by few values and by many, before and after a flush") {
+  const std::string path = example::folder("grows") + "/a.h5";
+  h5::File file = h5::File::create(path);
+  const h5::Group g = file.root().make_group("history");
+  g.make_extendible<double>("x", {}, 16);
+  std::vector<double> expected;
+  for (std::size_t count : {1, 300, 2, 1, 65, 64}) {
+    const std::vector<double> rows(count, 0.5 * static_cast<double>(expected.size()));
+    g.append<double>("x", rows);
+    expected.insert(expected.end(), rows.begin(), rows.end());
+    file.flush();
+    CHECK(g.has("x"));
+    CHECK(g.read<double>("x", {h5::any}).values == expected);
+  }
+  file.commit();
+  CHECK(h5::File::open(path).root().group("history").read<double>("x", {h5::any}).values ==
+        expected);
+}
+
 TEST_CASE("a file given up leaves nothing behind and the old one whole") {
   const std::string path = example::folder("given_up") + "/a.h5";
   write_mesh(path, example::bar(), example::identity());
