@@ -102,7 +102,7 @@ Reached deepest(const SolutionReader& solution) {
 // The indenter force along its travel [N], positive where the body resists the motion.
 double resisting(const StepRecord& step) {
   const double travel = step.u_ind.norm();
-  if (travel > 0) return -step.force_ind.dot(step.u_ind) / travel;
+  if (travel > 0) return -step.force_ind.dot(step.u_ind / travel);
   return step.force_ind.norm();
 }
 

@@ -28,7 +28,7 @@ double history(const StepState& s) {
 // length is returned.
 double force(const StepState& s) {
   const double travel = s.u_ind.norm();
-  if (travel > 0) return -s.force_ind.dot(s.u_ind) / travel;
+  if (travel > 0) return -s.force_ind.dot(s.u_ind / travel);
   return s.force_ind.norm();
 }
 
