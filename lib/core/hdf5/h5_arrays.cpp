@@ -158,15 +158,13 @@ template <class T>
 void Group::append(const std::string& name, std::span<const T> rows) const {
   constexpr std::size_t few = 64;  // values; of longer rows a chunk would stay in memory
   const std::string path = full(name);
-  auto& growing = file_->growing;
-  auto known = growing.find(path);
-  const bool is_open = known != growing.end();
-  Handle opened(is_open ? -1 : H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (opened.good() && rows.size() <= few) {
-    known = growing.emplace(path, std::move(opened)).first;
+  auto open = file_->growing.find(path);
+  if (open == file_->growing.end()) {
+    Handle opened(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!opened.good()) refuse(name, "dataset is missing");
+    open = file_->growing.emplace(path, std::move(opened)).first;
   }
-  hid_t dataset = opened;
-  if (known != growing.end()) dataset = known->second;
+  const hid_t dataset = open->second;
   const auto before = shape_of(dataset);
   if (!before) refuse(name, "dataset is missing");
   Shape whole = *before;
@@ -189,6 +187,7 @@ void Group::append(const std::string& name, std::span<const T> rows) const {
                               nullptr) >= 0 &&
               H5Dwrite(dataset, Kind<T>::memory(), memory, space, H5P_DEFAULT, rows.data()) >= 0,
           *this, name);
+  if (rows.size() > few) file_->growing.erase(open);
 }
 
 Shape Group::shape(const std::string& name) const {

@@ -65,8 +65,7 @@ class FoldedCell {
     for (int i = 0; i < 3; ++i) {
       const int row = 3 * a + i;
       const Packet* from = &element.K[static_cast<std::size_t>(row * (row + 1) / 2 + 3 * b)];
-      const int n = a == b ? i + 1 : 3;
-      for (int j = 0; j < n; ++j) K(i, j) = from[j][lane];
+      for (int j = 0; j < 3 && 3 * b + j <= row; ++j) K(i, j) = from[j][lane];
     }
     if (a != b) return K;
     return K.selfadjointView<Eigen::Lower>();
@@ -83,9 +82,11 @@ class FoldedCell {
     for (int i = 0; i < 3; ++i) {
       const int row = 3 * a + i;
       const int* slot = pattern_.slots(e_) + row * (row + 1) / 2 + 3 * b;
-      for (int j = 0; j < (a == b ? i + 1 : 3); ++j) {
+      for (int j = 0; j < 3 && 3 * b + j <= row; ++j) {
         if (slot[j] < 0) continue;
-        values[static_cast<std::size_t>(slot[j])] += meet && i == j ? 2 * K(i, j) : K(i, j);
+        double entry = K(i, j);
+        if (meet && i == j) entry *= 2;
+        values[static_cast<std::size_t>(slot[j])] += entry;
       }
     }
   }
