@@ -35,7 +35,7 @@ Row indentation(const Material& skin, int nx, int ny, LinearBy linear) {
   scene.newton.reuse_tangent = false;  // each iteration with all its parts
   Forecast told;
   scene.before = [&](Assembler& body, const Increment& increment, const LoadPathOptions& path) {
-    told = forecast(body, increment.size(), {}, path, {},
+    told = forecast(body, increment.size(), increment.contacts(), path, {},
                     {false, increment.contact_in_tangent(), increment.mixed()});
   };
   double begun = 0;

@@ -178,6 +178,21 @@ TEST_CASE(
 
 // A body that its law turns against itself has no such solution; whoever asks for one gets what a
 // factor gives.
+// Off the indenter the forces vanish, and what is left of the volume outweighs them.
+TEST_CASE("iterative: an indenter that leaves the body needs no shorter increments") {
+  if (!petsc_is_here()) return;
+  test::Indentation s;
+  s.nx = s.nz = 14, s.ny = 4, s.h = 0.5, s.mu = 0.34;
+  s.motion = {{0.5, Vec3(0, -0.8, 0)}, {1, Vec3(0, 0.1, 0)}};
+  s.depth = 1, s.step = 0.125;
+  s.newton.linear = LinearBy::iterative;
+  const auto found = s.run(test::table1(60, 1e-6));
+  REQUIRE(found.path.complete);
+  CHECK(found.path.steps == 8);
+  CHECK(found.path.cut_backs == 0);
+  CHECK(found.steps.back().force == 0);
+}
+
 TEST_CASE("iterative: what does not converge is left to a factor") {
   if (!petsc_is_here()) return;
   const Mesh mesh = test::block(test::even(0, 1, 2), test::even(0, 1, 2), test::even(0, 1, 2));

@@ -35,9 +35,10 @@ class MixedTangent {
 
   MixedSolver& solver() { return *solver_; }
   const MixedSolver& solver() const { return *solver_; }
-  // The relative residual of f and g together at which a solution ends: while the status of
-  // candidates still changes, and in the last iterations.
-  static constexpr double rough = 1e-2, fine = 1e-4;
+  // Residual of f and g together at which a solution ends, relative to its right side. A more
+  // accurate one than `usual` takes more products than it saves corrections, except where the
+  // strains g outweigh the forces f.
+  static constexpr double usual = 1e-2, accurate = 1e-4;
   static constexpr int most = 120;  // products of one solution
 
  private:

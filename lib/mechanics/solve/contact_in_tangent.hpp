@@ -55,7 +55,10 @@ class ContactInTangent {
   std::optional<Answer> solve(const ContactState& state, const Assembler& body, const VecX& rhs,
                               MixedTangent& mixed, VecX& dp);
   // What was solved before has no say any more: an interrupted path goes on with the same digits.
-  void begin_increment() { settled_ = candidates_.empty(); }
+  void begin_increment() {
+    fresh_ = lost_ = 0;
+    residual_ = 0;
+  }
   // With the K, the frames and the factor of the last solve(). Nothing where a candidate changes
   // what it does.
   std::optional<Answer> solve_again(const ContactState& state, const VecX& rhs,
@@ -121,7 +124,9 @@ class ContactInTangent {
   std::vector<double> K_;             // turned
   VecX rhs_;                          // turned
   bool friction_in_factor_ = false;
-  bool settled_ = true;  // no candidate changed in the last iterative solution
+  // products of a solution with a new multigrid, and those that its age has cost since
+  int fresh_ = 0, lost_ = 0;
+  double residual_ = 0;  // before the last iterative correction [N]
 };
 
 }  // namespace langer

@@ -84,13 +84,17 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
   return at;
 }
 
-// Multigrid is made anew where more than a few candidates do something else than in it, each of
-// which costs some products, or where many products tell that it is old.
+// Multigrid is made anew when the products that a new one would have saved have cost as much as it
+// does: where the body has moved far, or many candidates do something else. A solution is more
+// accurate where the last correction has left more than a tenth of the residual.
 std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state,
                                                                 const Assembler& body,
                                                                 const VecX& rhs,
                                                                 MixedTangent& mixed, VecX& dp) {
-  constexpr int few = 4, many_products = 25;
+  constexpr int price = 10;  // of a new multigrid, in products
+  const bool slow = residual_ > 0 && rhs.norm() > 0.1 * residual_;
+  const double relative = slow ? MixedTangent::accurate : MixedTangent::usual;
+  residual_ = rhs.norm();
   linearise_at(state, true);
   K_ = mixed.rest_of(body);
   turn(K_);
@@ -100,31 +104,27 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   for (Candidate& c : candidates_) judge(c, c.present, c.q);
   std::optional<Answer> answer;
   MixedSolver::Answer last;
-  double relative = settled_ ? MixedTangent::fine : MixedTangent::rough;
-  settled_ = true;
-  bool old = false;
   for (int step = 0; step < 30; ++step) {
-    const auto differ =
-        std::count_if(candidates_.begin(), candidates_.end(),
-                      [](const Candidate& c) { return c.law.status != c.factored; });
-    const bool anew = !mixed.solver().preconditioned() || differ > few || old;
-    if (anew) {
-      if (!precondition(mixed)) return std::nullopt;
-      for (Candidate& c : candidates_) c.factored = c.law.status;
-    }
+    const bool anew = !mixed.solver().preconditioned() || lost_ > price;
+    if (anew && !precondition(mixed)) return std::nullopt;
     const int before = last.products;
     const auto solved = solution(mixed, relative, last, dp);
-    old = !solved || last.products - before > many_products;
     if (!solved && anew) return std::nullopt;
     if (!solved) {
+      lost_ = price + 1;
       last.d.resize(0);
       continue;
     }
+    const int products = last.products - before;
+    if (anew) {
+      fresh_ = products;
+      lost_ = 0;
+    }
+    lost_ += std::max(products - fresh_, 0);
     answer = answer_of(*solved, state);
-    const int changed = changes(*solved);
-    settled_ = settled_ && changed == 0;
-    if (changed == 0 && relative <= MixedTangent::fine) break;
-    relative = changed > few ? MixedTangent::rough : MixedTangent::fine;
+    // Candidates may change to and fro where the last answer is accurate enough for either.
+    const bool stays = step > 0 && products == 0;
+    if (changes(*solved) == 0 || stays) break;
   }
   if (answer) answer->solutions = last.products;
   return answer;
