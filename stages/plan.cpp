@@ -3,9 +3,8 @@
 // It runs nothing itself; `make -C runs/indentation` does.
 #include "pipeline/plan/plan.hpp"
 
-#include <filesystem>
-
 #include "arguments.hpp"
+#include "core/base/module_path.hpp"
 #include "core/base/say.hpp"
 #include "program.hpp"
 
@@ -33,7 +32,7 @@ int main(int argc, char** argv) {
   return guarded("langer-plan", [&] {
     int code = 0;
     if (!options.read(plan_usage(), argc, argv, code)) return code;
-    const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
+    const std::string bin = program_folder().string();
     PlanReport report;
     if (dry_run) {
       report = check_pipeline(file, folder, overrides);

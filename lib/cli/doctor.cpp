@@ -150,7 +150,7 @@ Finding machine() {
 
 // Packages of Python are looked for only if there is a Python.
 std::vector<Finding> examine() {
-  const fs::path bin = fs::canonical("/proc/self/exe").parent_path();
+  const fs::path bin = program_folder();
   std::vector<Finding> findings{
       {"langer", true, true, fmt::format("{} ({})", version, revision)},
       machine(),

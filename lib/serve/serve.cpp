@@ -1,12 +1,12 @@
 #include "serve/serve.hpp"
 
 #include <csignal>
-#include <filesystem>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/module_path.hpp"
 #include "core/base/say.hpp"
 #include "serve/child.hpp"
 #include "serve/folder.hpp"
@@ -93,7 +93,7 @@ class Door {
 // The address is the only line on stdout, so that a script can read it.
 int serve(const std::string& folder, int port) {
   const http::Functions& server = http::load();
-  const std::string bin = std::filesystem::canonical("/proc/self/exe").parent_path().string();
+  const std::string bin = program_folder().string();
   prepare_environment(bin);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, note_end);
   const auto ends = [] {
