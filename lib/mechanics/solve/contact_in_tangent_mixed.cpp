@@ -84,14 +84,15 @@ std::optional<ContactInTangent::Solved> ContactInTangent::solution(MixedTangent&
   return at;
 }
 
-// Multigrid is made anew when the products that a new one would have saved have cost as much as it
-// does: where the body has moved far, or many candidates do something else. A solution is more
-// accurate where the last correction has left more than a tenth of the residual.
+// Multigrid is made anew where many candidates do something else than in it, or when the products
+// that a new one would have saved have cost as much as it does. A solution is more accurate where
+// the last correction has left more than a tenth of the residual.
 std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactState& state,
                                                                 const Assembler& body,
                                                                 const VecX& rhs,
                                                                 MixedTangent& mixed, VecX& dp) {
   constexpr int price = 10;  // of a new multigrid, in products
+  constexpr int many = 10;   // candidates, each of which costs about a product
   const bool slow = residual_ > 0 && rhs.norm() > 0.1 * residual_;
   const double relative = slow ? MixedTangent::accurate : MixedTangent::usual;
   residual_ = rhs.norm();
@@ -105,8 +106,14 @@ std::optional<ContactInTangent::Answer> ContactInTangent::solve(const ContactSta
   std::optional<Answer> answer;
   MixedSolver::Answer last;
   for (int step = 0; step < 30; ++step) {
-    const bool anew = !mixed.solver().preconditioned() || lost_ > price;
-    if (anew && !precondition(mixed)) return std::nullopt;
+    const auto differ =
+        std::count_if(candidates_.begin(), candidates_.end(),
+                      [](const Candidate& c) { return c.law.status != c.factored; });
+    const bool anew = !mixed.solver().preconditioned() || differ > many || lost_ > price;
+    if (anew) {
+      if (!precondition(mixed)) return std::nullopt;
+      for (Candidate& c : candidates_) c.factored = c.law.status;
+    }
     const int before = last.products;
     const auto solved = solution(mixed, relative, last, dp);
     if (!solved && anew) return std::nullopt;
