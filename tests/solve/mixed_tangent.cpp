@@ -176,8 +176,6 @@ TEST_CASE(
   same_by_both(s, test::neo_hooke(0.05, 1e-5));
 }
 
-// A body that its law turns against itself has no such solution; whoever asks for one gets what a
-// factor gives.
 // Off the indenter the forces vanish, and what is left of the volume outweighs them.
 TEST_CASE("iterative: an indenter that leaves the body needs no shorter increments") {
   if (!petsc_is_here()) return;
@@ -193,6 +191,8 @@ TEST_CASE("iterative: an indenter that leaves the body needs no shorter incremen
   CHECK(found.steps.back().force == 0);
 }
 
+// A body that its law turns against itself has no such solution; whoever asks for one gets what a
+// factor gives.
 TEST_CASE("iterative: what does not converge is left to a factor") {
   if (!petsc_is_here()) return;
   const Mesh mesh = test::block(test::even(0, 1, 2), test::even(0, 1, 2), test::even(0, 1, 2));
